@@ -65,6 +65,15 @@ void warn(vtkObject* object, const std::string& sentence)
   vtkWarningWithObjectMacro(object, << sentence << ".");
 }
 
+void warnAnew(vtkObject* object, const std::string& sentence, std::string& last)
+{
+  if (sentence != last && !sentence.empty())
+  {
+    warn(object, sentence);
+  }
+  last = sentence;
+}
+
 namespace
 {
 // VTK keeps the addresses of readers that were deleted while they were connected. A reader that is

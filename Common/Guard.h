@@ -38,6 +38,15 @@ VTKBRAINSHIFTCOMMON_EXPORT void reportThrown(vtkObject* object);
 VTKBRAINSHIFTCOMMON_EXPORT void warn(vtkObject* object, const std::string& sentence);
 
 /**
+ * Reports a warning of an object that runs again and again: not one that it gave the last time.
+ *
+ * @param sentence   without the last full stop; empty: there is none
+ * @param last       that of the last run; becomes `sentence`
+ */
+VTKBRAINSHIFTCOMMON_EXPORT void warnAnew(
+  vtkObject* object, const std::string& sentence, std::string& last);
+
+/**
  * Lets the next request ask for its own extent after one that failed. VTK adds the extent of a
  * failed request to those that follow, so a filter that refused a size would refuse all smaller
  * ones, too.

@@ -10,6 +10,8 @@
 
 #include "vtkBrainShiftCommonModule.h" // for the export macro
 
+#include <string>
+
 class vtkDataObject;
 
 namespace brainshift
@@ -27,6 +29,27 @@ VTKBRAINSHIFTCOMMON_EXPORT void nameWorldAxes(vtkDataObject* volume, WorldAxes a
 
 /** The axes that the array names. Unknown if there is none, for another word, and for null. */
 VTKBRAINSHIFTCOMMON_EXPORT WorldAxes worldAxesOf(vtkDataObject* volume);
+
+/** A thing with its axes, in a sentence about them. */
+struct NamedAxes
+{
+  std::string noun; ///< with its article, such as "the volume"
+  WorldAxes axes = WorldAxes::Unknown;
+};
+
+/**
+ * A sentence, without a full stop, if one of two things says where its axes point in the patient,
+ * and the other says something else or nothing: left and right may be exchanged then. Empty if both
+ * say the same, and if neither says it, as data that are of no patient.
+ */
+VTKBRAINSHIFTCOMMON_EXPORT std::string wordsOnSides(const NamedAxes& one, const NamedAxes& other);
+
+/**
+ * The same for what is put into a volume, such as points or a lattice. Scripts and many filters
+ * make such things without naming their axes, so what says nothing counts as of the volume's.
+ */
+VTKBRAINSHIFTCOMMON_EXPORT std::string wordsOnSidesOf(
+  const NamedAxes& guest, vtkDataObject* volume);
 }
 
 #endif

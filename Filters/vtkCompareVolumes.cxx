@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/WorldAxes.h"
 #include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
@@ -47,6 +48,7 @@ struct vtkCompareVolumes::Kept
   vtkMTimeType ScalarsTime = 0;
 
   CavitySource Cavity;
+  std::string Warning;
 
   vtkDataArray* voxelsOf(vtkDataArray* scalars)
   {
@@ -132,7 +134,15 @@ int vtkCompareVolumes::RequestData(
   attachReference(output,
     { { this->Internal->voxelsOf(scalars), movedRigidly(grid, motion) }, cavity,
       static_cast<ReferenceShow>(this->Show) });
+  warnAnew(this,
+    wordsOnSides({ "the volume", worldAxesOf(output) }, { "the reference", worldAxesOf(image) }),
+    this->Internal->Warning);
   return 1;
+}
+
+std::string vtkCompareVolumes::GetWarning() const
+{
+  return this->Internal->Warning;
 }
 
 void vtkCompareVolumes::PrintSelf(ostream& os, vtkIndent indent)

@@ -18,6 +18,7 @@
 #include "vtkImageAlgorithm.h"
 
 #include <memory> // for the private part
+#include <string>
 #include <vector>
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkCompareVolumes : public vtkImageAlgorithm
@@ -71,6 +72,9 @@ public:
   vtkSetClampMacro(Show, int, Both, Reference);
   vtkGetMacro(Show, int);
   ///@}
+
+  /** What to know about the last execution: sentences without the last full stop, or nothing. */
+  std::string GetWarning() const;
 
 protected:
   vtkCompareVolumes();

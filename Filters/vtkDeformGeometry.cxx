@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/Portions.h"
+#include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCellData.h"
@@ -170,6 +171,9 @@ int vtkDeformGeometry::RequestData(
   vtkPointSet* output = vtkPointSet::GetData(outputs);
   const DirectedMap map = directedMapOf(
     vtkDataObject::GetData(inputs[1]), static_cast<brainshift::Direction>(this->Direction));
+  warnAnew(this,
+    wordsOnSidesOf({ "the geometry", worldAxesOf(input) }, vtkDataObject::GetData(inputs[1])),
+    this->Warned);
   output->ShallowCopy(input);
   if (input->GetPoints() && !deform(this, map, input, output))
   {

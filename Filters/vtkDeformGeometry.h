@@ -17,6 +17,8 @@
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 #include "vtkPassInputTypeAlgorithm.h"
 
+#include <string>
+
 class VTKBRAINSHIFTFILTERS_EXPORT vtkDeformGeometry : public vtkPassInputTypeAlgorithm
 {
 public:
@@ -56,6 +58,7 @@ private:
   void operator=(const vtkDeformGeometry&) = delete;
 
   int Direction = Forward;
+  std::string Warned;
 };
 
 #endif

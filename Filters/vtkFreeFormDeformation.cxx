@@ -6,6 +6,7 @@
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
+#include "Common/WorldAxes.h"
 #include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Segmentation.h"
@@ -46,6 +47,7 @@ struct vtkFreeFormDeformation::State
   StrokeMarks LastMarks;
   std::string TooFine;  // strokes for the lattice: a sentence
   std::string OtherFit; // the base lattice was fitted for another deformation: a sentence
+  std::string Sides;    // the base lattice may be of another world: a sentence
   std::vector<std::string> Warned;
   bool WarnedOfMask = false; // that it holds strokes back
 
@@ -141,6 +143,8 @@ int vtkFreeFormDeformation::RequestData(
   {
     vtkErrorMacro(<< problem << ". The deformation stays as it was.");
   }
+  this->Internal->Sides =
+    wordsOnSidesOf({ "the lattice", worldAxesOf(vtkImageData::GetData(inputs[BasePort])) }, volume);
   this->TellWarnings();
   State& state = *this->Internal;
   state.PointArrays.share(output->GetPointData());
@@ -240,7 +244,7 @@ void vtkFreeFormDeformation::TellWarnings()
     warnings.push_back("The mask leaves no tissue to move: it is nowhere wider than two nodes of "
                        "the refined field. Raise Lattice Dimensions or Samples");
   }
-  for (const std::string& words : { state.OtherFit, state.TooFine })
+  for (const std::string& words : { state.OtherFit, state.Sides, state.TooFine })
   {
     if (!words.empty())
     {

@@ -6,6 +6,7 @@
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
 #include "Common/Portions.h"
+#include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Traces/DeformedSurface.h"
@@ -80,6 +81,7 @@ struct vtkTraceDistance::State
     int surfaceState = 0;
   };
 
+  std::string Warned;
   TissueSource Tissue;
   DeformedSurface Surface; // of the tissue
   CavitySource CavityInput;
@@ -327,6 +329,10 @@ int vtkTraceDistance::RequestData(
   State& state = *this->Internal;
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputs);
+  warnAnew(this,
+    wordsOnSidesOf(
+      { "the traced points", worldAxesOf(input) }, vtkDataObject::GetData(inputs[DeformationPort])),
+    state.Warned);
   this->FindCortex(inputs);
   std::vector<double> distances;
   bool going = true;

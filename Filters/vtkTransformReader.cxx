@@ -4,6 +4,7 @@
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/Portions.h"
+#include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Fields/TransformLattice.h"
 #include "Formats/Fields/FieldGap.h"
@@ -141,6 +142,11 @@ std::string vtkTransformReader::GetKind()
   return this->Load().empty() ? kindOf(this->Internal->Chain) : std::string();
 }
 
+bool vtkTransformReader::GetKnowsSides()
+{
+  return this->Load().empty() && this->Internal->Chain.knowsSides;
+}
+
 vtkDoubleArray* vtkTransformReader::GetMatrix()
 {
   State& state = *this->Internal;
@@ -276,6 +282,15 @@ void vtkTransformReader::FillField(vtkImageData* field, vtkInformation* volume)
     this->LargestError = largestErrorOf(lattice, transform);
   }
   setField(field, lattice.grid, lattice.displacements, wanted);
+  const WorldAxes world = this->World == LPS ? WorldAxes::LPS : WorldAxes::RAS;
+  const WorldAxes axes = state.Chain.knowsSides ? world : WorldAxes::Unknown;
+  nameWorldAxes(field, axes);
+  const WorldAxes expected = volume ? worldAxesOf(vtkImageData::GetData(volume)) : axes;
+  if (axes == WorldAxes::Unknown &&
+    expected != axes) // Free-Form Deformation compares what is known
+  {
+    warn(this, wordsOnSides({ "the volume", expected }, { "the transform", axes }));
+  }
 }
 
 void vtkTransformReader::RequireNumbers(bool isOwnDirection, Lattice& lattice)

@@ -134,6 +134,9 @@ public:
   /** "identity", "rigid", "affine" or "nonlinear"; empty after a problem. */
   std::string GetKind();
 
+  /** False if World is a guess, as the file or the images that it counts from do not know it. */
+  bool GetKnowsSides();
+
   /**
    * The rows of the 4 x 4 matrix that takes points of the fixed image to the moving one (mm,
    * world); empty if the map bends. Owned by this.

@@ -4,6 +4,7 @@
 #include "Common/FilledArray.h"
 #include "Common/Guard.h"
 #include "Common/Numbers.h"
+#include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Fields/BaseLattice.h"
@@ -21,6 +22,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <limits>
+#include <utility>
 
 using namespace brainshift;
 
@@ -304,6 +306,27 @@ void vtkFitDeformation::RequireProperties() const
   }
 }
 
+std::string vtkFitDeformation::DoubtsAboutSides(vtkInformationVector** inputs) const
+{
+  vtkDataObject* volume = vtkDataObject::GetData(inputs[0]);
+  for (const auto& [port, noun] :
+    { std::pair<int, const char*>{ BasePort, "the base" }, { RestPort, "the landmarks at rest" },
+      { MeasuredPort, "the measured landmarks" }, { TracesPort, "the traced points" } })
+  {
+    vtkDataObject* given = vtkDataObject::GetData(inputs[port]);
+    WorldAxes axes = worldAxesOf(given);
+    if (given && axes == WorldAxes::Unknown && isOfPoints(port))
+    {
+      axes = static_cast<WorldAxes>(this->PointAxes);
+    }
+    if (const std::string words = wordsOnSidesOf({ noun, axes }, volume); !words.empty())
+    {
+      return words; // the other inputs are as doubtful, and one sentence is enough
+    }
+  }
+  return {};
+}
+
 void vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
 {
   State& state = *this->Internal;
@@ -451,12 +474,9 @@ int vtkFitDeformation::RequestData(
   const std::size_t listed = this->Landmarks->Numbers.size() / Packed<PointPair>::Numbers;
   const bool isPicking =
     listed > 0 && listed < FewestPairs && listed == state.Measured.landmarks.size();
-  const std::string warning = joined({ noEvidence, isPicking ? "" : doubts, state.warning() });
-  if (warning != state.WarnedOf && !warning.empty())
-  {
-    warn(this, warning);
-  }
-  state.WarnedOf = warning; // it is repeated only after it was gone
+  const std::string warning = joined(
+    { noEvidence, isPicking ? "" : doubts, this->DoubtsAboutSides(inputs), state.warning() });
+  warnAnew(this, warning, state.WarnedOf); // it is repeated only after it was gone
   state.Warning = isPicking ? joined({ warning, doubts }) : warning;
   output->Crop(
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
@@ -589,6 +609,7 @@ void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Label: " << this->Label << "\n"
      << indent << "Anchors: " << this->Anchors << "\n"
      << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
+     << indent << "PointAxes: " << this->PointAxes << "\n"
      << indent << "Evidence: " << this->Evidence << "\n"
      << indent << "LandmarkPairs: " << this->Landmarks->Numbers.size() / Packed<PointPair>::Numbers
      << "\n"

@@ -121,6 +121,15 @@ public:
 
   ///@{
   /**
+   * World axes (WorldAxes.h) of points that do not say theirs: 1 RAS, 2 LPS, 0 (default) unknown.
+   * A warning reports points whose axes are not those of the volume.
+   */
+  vtkSetClampMacro(PointAxes, int, 0, 2);
+  vtkGetMacro(PointAxes, int);
+  ///@}
+
+  ///@{
+  /**
    * Whether the output carries the point array Deviation (float32, mm): the standard deviation of
    * the displacement at each control point, as Deviations() returns it. It takes time. Default off.
    */
@@ -268,6 +277,7 @@ private:
   bool Anchors = true;
   double OpeningCentre[3] = { 0.0, 0.0, 0.0 };
   double OpeningRadius = 0.0;
+  int PointAxes = 0;
   bool Evidence = false;
   std::vector<double> Pulls;
   std::vector<double> Pins;
@@ -276,6 +286,7 @@ private:
   // Each throws a Problem if it cannot.
   void RequireProperties() const;
   void ReadMeasurements(vtkInformationVector** inputs);
+  std::string DoubtsAboutSides(vtkInformationVector** inputs) const;
   void FindCortex(vtkInformationVector** inputs);
   void FindAnchors(vtkInformationVector** inputs);
   void FindBase(vtkInformationVector** inputs);

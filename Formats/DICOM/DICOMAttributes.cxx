@@ -125,8 +125,7 @@ std::string shownTextOf(const DICOMDataSet& set, DICOMTag tag)
     }
     else if (isLatin)
     {
-      shown += static_cast<char>(0xc0 | (code >> 6));
-      shown += static_cast<char>(0x80 | (code & 0x3f));
+      shown += utf8OfLatin1({ &letter, 1 });
     }
     else
     {

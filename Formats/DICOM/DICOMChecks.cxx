@@ -3,6 +3,7 @@
 
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMFrames.h"
+#include "Formats/DICOM/DICOMMosaic.h"
 #include "Formats/Files/Text.h"
 
 #include <iomanip>
@@ -77,12 +78,7 @@ void requireBits(const DICOMDataSet& set, const DICOMPixelFormat& pixels)
 // Sequences that give numbers or frames another meaning than a volume has.
 void requireVolume(const DICOMDataSet& set)
 {
-  const std::string type = plainText(textOf(set, 0x00080008));
-  if (type.find("MOSAIC") != std::string::npos)
-  {
-    throw Problem("has the ImageType " + type +
-      ": its slices are tiles of one picture; convert it with dcm2niix");
-  }
+  requireNoMosaic(set);
   if (!itemsOf(set, 0x00283000).empty())
   {
     throw Problem(
@@ -130,7 +126,7 @@ void requireOnce(const std::vector<DICOMTag>& repeated)
     std::ostringstream tag;
     tag << std::hex << std::setfill('0') << std::setw(4) << (repeated.front() >> 16) << ","
         << std::setw(4) << (repeated.front() & 0xffff);
-    throw Problem("has the attribute (" + tag.str() + ") twice, with different values");
+    throw Problem(twice("attribute (" + tag.str() + ")") + ", with different values");
   }
 }
 
@@ -159,6 +155,10 @@ std::vector<std::string> notesOf(const DICOMDataSet& set, const DICOMFile& file)
   if (textOf(set, 0x00280004).empty())
   {
     addNote(notes, "does not say its PhotometricInterpretation, which counts as MONOCHROME2");
+  }
+  if (const std::string mosaic = noteOfMosaic(set); !mosaic.empty())
+  {
+    addNote(notes, mosaic);
   }
   notePadding(set, file.pixels, notes);
   return notes;

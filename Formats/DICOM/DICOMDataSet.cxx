@@ -51,6 +51,18 @@ DICOMTag tagAt(const unsigned char* bytes, const Form& form)
     storedNumber<std::uint16_t>(bytes + 2, form.isBig);
 }
 
+// The attributes by which Siemens tells mosaics, in whatever block, and the names of blocks.
+bool mayTellMosaic(DICOMTag tag)
+{
+  const DICOMTag group = tag >> 16;
+  const DICOMTag element = tag & 0xffff;
+  const bool isCreator = element >= 0x10 && element <= 0xff;
+  const DICOMTag inBlock = element & 0xff;
+  return (group == 0x0019 && (isCreator || inBlock == 0x0a)) ||
+    (group == 0x0029 && (isCreator || inBlock == 0x10)) ||
+    (group == 0x0051 && (isCreator || inBlock == 0x16));
+}
+
 class Parser
 {
 public:
@@ -140,8 +152,10 @@ private:
     {
       return false; // the group of the file stands first (PS3.10, 7.1): its first tag is damaged
     }
-    const bool isKept = group % 2 == 0 &&
-      (group != 0x0010 || head.tag == AnatomicalOrientation || this->Patient == PatientGroup::Kept);
+    const bool isPublic = group % 2 == 0;
+    const bool isKept = isPublic
+      ? group != 0x0010 || head.tag == AnatomicalOrientation || this->Patient == PatientGroup::Kept
+      : form.depth == 0 && mayTellMosaic(head.tag);
     DICOMElement element;
     element.length = head.length;
     if (this->isSequence(offset, form, head))
@@ -171,7 +185,7 @@ private:
     if (isKept)
     {
       const auto known = set.elements.find(head.tag);
-      if (known != set.elements.end() &&
+      if (isPublic && known != set.elements.end() &&
         (known->second.length != element.length || known->second.bytes != element.bytes))
       {
         this->Repeated.push_back(head.tag);

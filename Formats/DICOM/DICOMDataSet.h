@@ -2,8 +2,9 @@
 /// @file
 /// The bytes of a DICOM file, and its attributes up to its pixels.
 ///
-/// Values of private groups are skipped, and those of the patient's group (0010) unless a user
-/// asked for them; apart from AnatomicalOrientationType, which says what the axes mean.
+/// Values of private groups are skipped, apart from those that tell Siemens' mosaics, and those of
+/// the patient's group (0010) unless a user asked for them, apart from AnatomicalOrientationType,
+/// which says what the axes mean.
 #ifndef BrainShift_DICOMDataSet_h
 #define BrainShift_DICOMDataSet_h
 

@@ -3,6 +3,7 @@
 
 #include "Common/Parallel.h"
 #include "Formats/DICOM/DICOMAttributes.h"
+#include "Formats/DICOM/DICOMSettings.h"
 #include "Formats/DICOM/DICOMStack.h"
 
 #include <algorithm>
@@ -190,7 +191,7 @@ std::vector<DICOMSeries> stacksOf(const std::vector<DICOMFile>& files)
       if (same == candidates.end())
       {
         candidates.push_back(series.size());
-        series.push_back({ {}, { frame } });
+        series.push_back({ {}, { frame }, {}, {} });
       }
       else
       {
@@ -267,6 +268,21 @@ std::string nameOf(const DICOMFile& file, const std::vector<DICOMFrame>& frames)
   return name;
 }
 
+// Parts series that have each setting of the scanner at several times.
+void partSettings(const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& series)
+{
+  std::vector<DICOMSeries> all;
+  for (DICOMSeries& whole : series)
+  {
+    const std::string name = nameOf(files[whole.frames.front().file], whole.frames);
+    for (DICOMSettingPart& part : partedBySetting(std::move(whole.frames)))
+    {
+      all.push_back({ {}, std::move(part.frames), part.setting, name });
+    }
+  }
+  series = std::move(all);
+}
+
 // Names that are alike get the type of their images, or a number.
 void nameAll(const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& series)
 {
@@ -274,6 +290,7 @@ void nameAll(const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& seri
   for (DICOMSeries& one : series)
   {
     one.name = nameOf(files[one.frames.front().file], one.frames);
+    one.name += one.setting.empty() ? "" : ", " + one.setting;
     ++count[one.name];
   }
   std::set<std::string> taken;
@@ -443,6 +460,7 @@ DICOMFolder readDICOMFolder(const std::string& path, const Progress& progress)
   }
   folder.series = stacksOf(folder.files);
   joinParts(folder.files, folder.series);
+  partSettings(folder.files, folder.series);
   sortSeries(whole, folder.files, folder.series);
   nameAll(folder.files, folder.series);
   return folder;

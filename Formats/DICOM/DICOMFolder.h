@@ -14,6 +14,10 @@ struct DICOMSeries
   /// What the user chooses by: number, description, modality, size and date. No two are alike.
   std::string name;
   std::vector<DICOMFrame> frames;
+  /// What parts it from others of the same images, such as "EchoTime 20 ms"; empty if nothing does.
+  std::string setting;
+  /// The name of all these parts together, by which older states choose.
+  std::string wholeName;
 };
 
 /** What lies in a folder. */

@@ -50,11 +50,28 @@ bool isSeriesOfTime(const std::vector<Images>& volumes)
   });
 }
 
+// Whether a setting, such as an echo, is there at several times of the heart or of a series.
+bool hasSettingAtTimes(const std::vector<Images>& volumes)
+{
+  return std::any_of(volumes.begin(), volumes.end(), [&](const Images& one) {
+    const DICOMMoment& a = one.front().moment;
+    return std::any_of(volumes.begin(), volumes.end(), [&](const Images& other) {
+      const DICOMMoment& b = other.front().moment;
+      return a.echo == b.echo && a.bValue == b.bValue && a.settings == b.settings &&
+        (a.temporalPosition != b.temporalPosition || a.triggerMs != b.triggerMs);
+    });
+  });
+}
+
 // Where neither triggers nor acquisitions say when volumes were made.
 std::vector<double> countedTimes(const std::vector<Images>& volumes, std::string& note)
 {
   if (!isSeriesOfTime(volumes))
   {
+    note = hasSettingAtTimes(volumes)
+      ? "has volumes of several echoes, diffusion weightings or other settings, of which not all "
+        "have the same times; they are numbered 0, 1, 2 and so on"
+      : "";
     return evenTimes(volumes.size(), 1.0);
   }
   const double intervalS = volumes.front().front().moment.intervalS;

@@ -161,6 +161,8 @@ public:
 private:
   // Refuses a file that holds no image, unless a series beside it was asked for.
   void requireImage(const DICOMFolder& folder);
+  // The series that was asked for; the end if there is none.
+  std::vector<DICOMSeries>::const_iterator chosenOf(const std::vector<DICOMSeries>& all) const;
   // Chooses the type of the numbers.
   void decideType(VolumeHeader& header);
   // Fills an image with one volume; drops it if `progress` says stop.
@@ -207,6 +209,17 @@ void DICOMVolume::requireImage(const DICOMFolder& folder)
   }
 }
 
+std::vector<DICOMSeries>::const_iterator DICOMVolume::chosenOf(
+  const std::vector<DICOMSeries>& all) const
+{
+  const auto named = std::find_if(all.begin(), all.end(),
+    [this](const DICOMSeries& series) { return series.name == this->Series; });
+  // Older states name what is parted now.
+  const auto whole = std::find_if(all.begin(), all.end(),
+    [this](const DICOMSeries& series) { return series.wholeName == this->Series; });
+  return this->Series.empty() ? all.begin() : named == all.end() ? whole : named;
+}
+
 // What is to be said of the files of a series, and of images of it that are not shown.
 void warnOfFiles(
   const DICOMFolder& folder, const DICOMSeries& chosen, std::vector<std::string>& warnings)
@@ -241,6 +254,12 @@ void warnOfFiles(
     warnings.push_back("has images without a position (ImagePositionPatient, "
                        "ImageOrientationPatient), which are another entry of its list: " +
       std::to_string(unplaced));
+  }
+  if (!chosen.setting.empty())
+  {
+    warnings.push_back("has images of several settings at several times; each setting is another "
+                       "entry of its list, and this one has " +
+      chosen.setting);
   }
   const std::vector<std::string> parted = partedNotes(folder, chosen);
   warnings.insert(warnings.end(), parted.begin(), parted.end());
@@ -277,10 +296,7 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   {
     throw Problem("is neither a DICOM image nor a folder with DICOM images");
   }
-  const auto chosen = this->Series.empty()
-    ? all.begin()
-    : std::find_if(all.begin(), all.end(),
-        [this](const DICOMSeries& series) { return series.name == this->Series; });
+  const auto chosen = this->chosenOf(all);
   if (chosen == all.end())
   {
     throw Problem("has no series \"" + this->Series + "\"; it has " + std::to_string(all.size()) +

@@ -29,6 +29,7 @@ struct DirectedField
   Grid grid;                            ///< mm, RAS
   std::vector<glm::vec3> displacements; ///< mm, RAS axes; one for each point, x fastest
   std::optional<Direction> direction;   ///< none if the file does not name it
+  bool knowsSides = true;               ///< false: RAS is a guess
 };
 
 /** Reverses x and y of a field: this leads from RAS to LPS and back. */

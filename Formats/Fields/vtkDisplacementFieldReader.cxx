@@ -2,6 +2,7 @@
 #include "vtkDisplacementFieldReader.h"
 
 #include "Common/Guard.h"
+#include "Common/WorldAxes.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldGap.h"
 #include "Formats/Fields/FieldImage.h"
@@ -75,7 +76,10 @@ int vtkDisplacementFieldReader::RequestData(
     direction =
       this->Direction == Forward ? brainshift::Direction::Forward : brainshift::Direction::Backward;
   }
-  setField(vtkImageData::GetData(outputs), state.Field.grid, state.Field.displacements, direction);
+  vtkImageData* field = vtkImageData::GetData(outputs);
+  setField(field, state.Field.grid, state.Field.displacements, direction);
+  const WorldAxes known = this->World == LPS ? WorldAxes::LPS : WorldAxes::RAS;
+  nameWorldAxes(field, state.Field.knowsSides ? known : WorldAxes::Unknown);
   return 1;
 }
 

@@ -113,6 +113,28 @@ std::string shownWords(const std::string& words)
   return words.size() > MostLetters ? shown + "..." : shown;
 }
 
+std::string twice(const std::string& thing)
+{
+  return "has the " + thing + " twice";
+}
+
+std::string utf8OfLatin1(std::string_view text)
+{
+  std::string utf8;
+  for (const char letter : text)
+  {
+    const auto code = static_cast<unsigned char>(letter);
+    if (code < 0x80)
+    {
+      utf8 += letter;
+      continue;
+    }
+    utf8 += static_cast<char>(0xc0 | code >> 6);
+    utf8 += static_cast<char>(0x80 | (code & 0x3f));
+  }
+  return utf8;
+}
+
 std::string validUtf8(std::string_view text)
 {
   std::string valid;

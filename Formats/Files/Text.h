@@ -43,6 +43,12 @@ std::size_t lettersBetween(const std::string& one, const std::string& other);
 /** Words of a file as an error may show them: printable, and not too many. */
 std::string shownWords(const std::string& words);
 
+/** The end of a sentence about a file that must have a thing once: "has the key Offset twice". */
+std::string twice(const std::string& thing);
+
+/** Text in UTF-8 from one in Latin-1, of which each byte is a letter. */
+std::string utf8OfLatin1(std::string_view text);
+
 /** Text in UTF-8: each byte that belongs to no letter becomes the replacement character. */
 std::string validUtf8(std::string_view text);
 }

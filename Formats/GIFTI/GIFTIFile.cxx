@@ -102,15 +102,19 @@ private:
     }
     else if (name == "Value")
     {
-      array.meta[this->MetaName] = trimmed(this->Text);
+      const auto [known, isNew] = array.meta.insert({ this->MetaName, trimmed(this->Text) });
+      if (!isNew && known->second != trimmed(this->Text))
+      {
+        this->stop(twice("metadata " + shownWords(this->MetaName)) + ", with different values");
+      }
     }
     else if (name == "DataSpace")
     {
-      this->Transform.from = trimmed(this->Text);
+      this->setOnce(this->Transform.from, name);
     }
     else if (name == "TransformedSpace")
     {
-      this->Transform.to = trimmed(this->Text);
+      this->setOnce(this->Transform.to, name);
     }
     else if (name == "MatrixData")
     {
@@ -119,6 +123,10 @@ private:
         this->stop("has a matrix of " + std::to_string(this->Text.size()) +
           " letters; it must be 16 numbers in 4096 letters or fewer");
         return;
+      }
+      if (!this->Transform.numbers.empty())
+      {
+        this->stop(twice("element MatrixData"));
       }
       this->Transform.numbers = numbersIn(this->Text);
     }
@@ -130,6 +138,16 @@ private:
     {
       this->readData(array);
     }
+  }
+
+  // The text of an element of a transform, which may have one of that name.
+  void setOnce(std::string& word, const std::string& name)
+  {
+    if (!word.empty())
+    {
+      this->stop(twice("element " + name));
+    }
+    word = trimmed(this->Text);
   }
 
   void readData(GIFTIArray& array)
@@ -165,6 +183,12 @@ private:
       label.color[static_cast<std::size_t>(i)] =
         isShare ? static_cast<unsigned char>(std::lround(255.0 * share[0])) : 255;
     }
+    const auto [known, isNew] = this->NameOfLabel.insert({ label.value, label.name });
+    if (!isNew && known->second != label.name)
+    {
+      this->stop(twice("label " + std::to_string(label.value)) + ", with different names");
+      return;
+    }
     this->File.labels.push_back(label);
   }
 
@@ -176,6 +200,7 @@ private:
   std::map<std::string, std::string> Attributes; // of the last element that began
   std::string MetaName;
   GIFTITransform Transform;
+  std::map<int, std::string> NameOfLabel;
   bool IsGIFTI = false;
 };
 
@@ -236,6 +261,16 @@ void requireRoot(const GIFTIFile& file)
   }
 }
 
+// The name at which expat stopped.
+std::string wordAt(const std::vector<char>& text, XML_Index index)
+{
+  const std::string_view all(text.data(), text.size());
+  const std::size_t begin =
+    std::min(all.size(), static_cast<std::size_t>(std::max<XML_Index>(index, 0)));
+  const std::string_view rest = all.substr(begin, LongestBeginning);
+  return shownWords(std::string(rest.substr(0, rest.find_first_of("= \t\r\n"))));
+}
+
 struct FreeParser
 {
   void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
@@ -277,9 +312,13 @@ GIFTIFile readGIFTIFile(const std::vector<char>& text)
     throwIfAny(listener.problem());
     if (status != XML_STATUS_OK)
     {
-      throw Problem("is not good XML in line " +
-        std::to_string(XML_GetCurrentLineNumber(parser.get())) + ": " +
-        XML_ErrorString(XML_GetErrorCode(parser.get())));
+      const std::string line = std::to_string(XML_GetCurrentLineNumber(parser.get()));
+      const XML_Error error = XML_GetErrorCode(parser.get());
+      throwIfAny(error != XML_ERROR_DUPLICATE_ATTRIBUTE
+          ? ""
+          : twice("attribute " + wordAt(text, XML_GetCurrentByteIndex(parser.get()))) +
+            " in an element in line " + line);
+      throw Problem("is not good XML in line " + line + ": " + XML_ErrorString(error));
     }
     if (isLast)
     {

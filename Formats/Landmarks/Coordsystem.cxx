@@ -132,7 +132,7 @@ std::optional<ElectrodeFrame> electrodeFrame(const std::string& tableName, Landm
                                const nlohmann::json& parsed) {
       const bool isKey = depth == 1 && event == nlohmann::json::parse_event_t::key;
       throwIfAny(isKey && !keys.insert(parsed.get<std::string>()).second
-          ? "has the key " + shownWords(parsed.get<std::string>()) + " twice"
+          ? twice("key " + shownWords(parsed.get<std::string>()))
           : "");
       return true;
     };

@@ -69,7 +69,7 @@ void readComment(const CommentEntry& entry, FiducialHeader& header)
   {
     if (!header.columns.empty() && header.columns != entry.value)
     {
-      throw Problem("has the line # columns twice");
+      throw Problem(twice("line # columns"));
     }
     header.columns = entry.value;
     readColumns(entry.value, header);

@@ -58,19 +58,7 @@ std::string utf8Of(std::string text, Format format, LandmarkList& list)
     return text;
   }
   list.notes.emplace_back("is no UTF-8; its names are read as Latin-1");
-  std::string result;
-  for (const char letter : text)
-  {
-    const auto code = static_cast<unsigned char>(letter);
-    if (code < 0x80)
-    {
-      result += letter;
-      continue;
-    }
-    result += static_cast<char>(0xC0 | code >> 6);
-    result += static_cast<char>(0x80 | (code & 0x3F));
-  }
-  return result;
+  return utf8OfLatin1(text);
 }
 
 void parse(

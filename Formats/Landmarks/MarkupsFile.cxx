@@ -71,7 +71,7 @@ public:
       throw Problem(
         (place == Place::Control ? beginningAt("control point " + std::to_string(this->Read))
                                  : std::string()) +
-        "has the key " + shownWords(name) + " twice");
+        twice("key " + shownWords(name)));
     }
     return true;
   }

@@ -46,7 +46,7 @@ bool readKeys(std::string_view text, std::map<std::string, std::string>& keys)
       const std::string value = trimmed(line.substr(colon + 1));
       const bool isSame = keys.emplace(name, value).first->second == value;
       const bool counts = name == "file" || name == "datatype" || name == "count";
-      throwIfAny(counts && !isSame ? "has the line \"" + name + ":\" twice" : "");
+      throwIfAny(counts && !isSame ? twice("line \"" + name + ":\"") : "");
     }
     place = end + 1;
   }

@@ -16,6 +16,7 @@
 #include "Formats/Files/WholeFile.h"
 #include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
+#include "Formats/Volumes/OutgoingVolume.h"
 #include "Formats/Volumes/PlacedVolume.h"
 
 #include "vtkCommand.h"
@@ -155,6 +156,7 @@ void readVectors(const std::string& fileName, DirectedField& field)
   vtkNew<vtkImageData> image;
   file.read(0, extent, [](double) { return true; }, image);
   field.grid = file.geometry().grid;
+  field.knowsSides = file.header().knowsSides;
   field.displacements = vectorsOf(image->GetPointData()->GetScalars());
 }
 
@@ -262,12 +264,17 @@ void writeNIFTIField(const std::string& fileName, const DirectedField& field)
   vtkNew<vtkNIFTIImageWriter> writer;
   writer->SetInputData(image);
   writer->SetNIFTIHeader(header);
-  writer->SetDescription("BrainShift displacement field, mm");
-  if (glm::determinant(grid.direction) > 0.0)
+  writer->SetDescription(joined("BrainShift displacement field, mm", field.knowsSides ? "" : ", ",
+    field.knowsSides ? "" : UnknownSidesNote)
+      .c_str());
+  if (glm::determinant(grid.direction) > 0.0 && field.knowsSides)
   {
     writer->SetQFormMatrix(worldFromRotated); // a rotation: a mirror has none
   }
-  writer->SetSFormMatrix(worldFromRotated);
+  if (field.knowsSides || needsTransform(grid))
+  {
+    writer->SetSFormMatrix(worldFromRotated);
+  }
   vtkNew<vtkCallbackCommand> silent; // the error code says enough
   silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, silent);

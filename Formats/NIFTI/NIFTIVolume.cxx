@@ -251,6 +251,21 @@ void noteCodes(vtkNIFTIImageHeader* header, int bytesOfVoxel, std::vector<std::s
 
 namespace
 {
+// A number of the table that has two names.
+void noteLabels(VolumeHeader& header)
+{
+  std::map<int, std::string> names;
+  for (const Label& label : header.labels)
+  {
+    if (names.insert({ label.value, label.name }).first->second != label.name)
+    {
+      header.warnings.push_back(
+        twice("label " + std::to_string(label.value)) + ", with different names");
+      return;
+    }
+  }
+}
+
 // Vectors, tensors and fields have their components in dim[5].
 void noteVectors(vtkNIFTIImageHeader* header, std::vector<std::string>& warnings)
 {
@@ -312,7 +327,12 @@ void NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   const char* note = stored->GetDescrip();
   const bool saysUnknown = note && std::string(note).find(UnknownSidesNote) != std::string::npos;
   header.knowsSides = !saysUnknown && (stored->GetSFormCode() > 0 || stored->GetQFormCode() > 0);
+  if (!header.knowsSides)
+  {
+    header.warnings.emplace_back(UnknownSidesWarning);
+  }
   header.labels = niftiLabels(this->textOfExtensions(fileName, header));
+  noteLabels(header);
   header.isLabelMap = stored->GetIntentCode() == vtkNIFTIImageHeader::IntentLabel;
 }
 

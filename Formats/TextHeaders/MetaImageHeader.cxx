@@ -46,7 +46,7 @@ void requireKeys(TextHeader& header)
   constexpr std::size_t Shortest = 6;      // letters; shorter names are alike by chance
   for (const std::string& name : header.text.repeated)
   {
-    throwIfAny(isKey(name) ? "has the key " + shownWords(name) + " twice" : "");
+    throwIfAny(isKey(name) ? twice("key " + shownWords(name)) : "");
   }
   for (const auto& [name, value] : header.text.fields)
   {

@@ -70,11 +70,11 @@ void requireKnownFields(TextHeader& header)
 {
   for (const std::string& name : header.text.repeated)
   {
-    throw Problem("has the field '" + shownWords(name) + "' twice");
+    throw Problem(twice("field '" + shownWords(name) + "'"));
   }
   if (header.text.has("centers") && header.text.has("centerings"))
   {
-    throw Problem("has the field 'centers' twice, the second time as 'centerings'");
+    throw Problem(twice("field 'centers'") + ", the second time as 'centerings'");
   }
   for (const auto& [name, value] : header.text.fields)
   {
@@ -82,7 +82,7 @@ void requireKnownFields(TextHeader& header)
     {
       throw Problem("has the field '" + shownWords(name) + "', which NRRD does not define");
     }
-    throwIfAny(areTwice(header.text, name) ? "has the field '" + name + "' twice" : "");
+    throwIfAny(areTwice(header.text, name) ? twice("field '" + name + "'") : "");
   }
   if (header.text.has("old min") || header.text.has("oldmin") || header.text.has("old max") ||
     header.text.has("oldmax"))

@@ -5,6 +5,7 @@
 #include "Common/Numbers.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Volumes/OutgoingVolume.h"
 
 #include "vtkDataArray.h"
 #include "vtkSetGet.h" // for vtkTemplateMacro
@@ -343,6 +344,13 @@ int TextHeader::spatialAxes() const
 {
   return static_cast<int>(std::count_if(this->axes.begin(), this->axes.end(),
     [](const HeaderAxis& axis) { return axis.step.has_value(); }));
+}
+
+bool TextHeader::saysSides() const
+{
+  const std::string note =
+    this->text.isNRRD ? this->text.comments : this->text.valueOf({ "Comment" });
+  return this->knowsSides && note.find(UnknownSidesNote) == std::string::npos;
 }
 
 void nameDataFiles(const std::string& fileName, const std::string& words, TextHeader& header)

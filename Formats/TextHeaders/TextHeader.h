@@ -106,6 +106,9 @@ struct TextHeader
 
   /** Axes of space. */
   int spatialAxes() const;
+
+  /** knowsSides, unless BrainShift wrote the file for data whose sides nobody knew. */
+  bool saysSides() const;
 };
 
 /**

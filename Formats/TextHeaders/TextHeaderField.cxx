@@ -4,6 +4,7 @@
 /// of the file that holds them.
 
 #include "Common/Bytes.h"
+#include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
@@ -12,6 +13,7 @@
 #include "Formats/Files/WholeFile.h"
 #include "Formats/TextHeaders/TextHeader.h"
 #include "Formats/Volumes/OutgoingVolume.h"
+#include "Formats/Volumes/VolumeFile.h"
 
 #include <cmath>
 
@@ -217,6 +219,11 @@ void readField(const std::string& fileName, DirectedField& field)
     data = readData(header, field.grid);
   });
   field.direction = directionOf(header.text);
+  field.knowsSides = header.saysSides();
+  if (!field.knowsSides)
+  {
+    warn(nullptr, "File " + fileName + " " + UnknownSidesWarning);
+  }
   field.displacements.resize(field.grid.count());
   if (header.numberType == VTK_DOUBLE)
   {
@@ -244,6 +251,7 @@ void writeMetaImageField(const std::string& fileName, const DirectedField& ras)
          << listText(grid.direction[1], " ") << " " << listText(grid.direction[2], " ") << "\n"
          << "Offset = " << listText(grid.origin, " ") << "\nCenterOfRotation = 0 0 0\n"
          << "ElementSpacing = " << listText(grid.spacing, " ") << "\n"
+         << (field.knowsSides ? "" : "AnatomicalOrientation = ???\n") // the comment is taken
          << "DimSize = " << listText(glm::dvec3(grid.dimensions), " ") << "\n"
          << "ElementNumberOfChannels = 3\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n";
   write(fileName, header.str(), field);
@@ -255,7 +263,9 @@ void writeNRRDField(const std::string& fileName, const DirectedField& ras)
   reverseXY(field);
   const Grid& grid = field.grid;
   std::ostringstream header;
-  header << "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\n"
+  header << "NRRD0005\n"
+         << (field.knowsSides ? std::string() : std::string("# ") + UnknownSidesNote + "\n")
+         << "type: float\ndimension: 4\nspace: left-posterior-superior\n"
          << "sizes: 3 " << listText(glm::dvec3(grid.dimensions), " ") << "\nspace directions: none";
   for (int axis = 0; axis < 3; ++axis)
   {

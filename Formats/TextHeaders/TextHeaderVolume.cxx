@@ -181,13 +181,6 @@ glm::dvec3 rasSigns(HeaderSpace space)
   }
 }
 
-// Whether BrainShift wrote the file for a volume whose sides nobody knew.
-bool deniesSides(const HeaderText& text)
-{
-  const std::string note = text.isNRRD ? text.comments : text.valueOf({ "Comment" });
-  return note.find(UnknownSidesNote) != std::string::npos;
-}
-
 bool hasNoKind(const HeaderAxis& axis)
 {
   return axis.kind.empty() || axis.kind == "???" || axis.kind == "none";
@@ -295,10 +288,14 @@ void TextHeaderVolume::readHeader(const std::string& fileName, VolumeHeader& hea
     }
   }
   header.worldFromVoxel[3] = glm::dvec4(signs * this->Stored.origin, 1.0);
-  header.knowsSides = this->Stored.knowsSides && !deniesSides(this->Stored.text);
+  header.knowsSides = this->Stored.saysSides();
   header.storedType = this->Stored.numberType;
   header.rescaling = { this->Stored.slope, this->Stored.intercept };
   header.warnings = this->Stored.warnings;
+  if (!header.knowsSides)
+  {
+    header.warnings.emplace_back(UnknownSidesWarning);
+  }
   if (header.knowsSides && !this->Stored.hasOrigin)
   {
     header.warnings.push_back(std::string("has no ") + (isNRRD ? "space origin" : "Offset") +

@@ -97,7 +97,7 @@ void readEntry(const std::string& line, Entries& entries)
   requireSpelling(name);
   if (!entries.emplace(name, Words(words.begin() + 1, words.end())).second)
   {
-    throw Problem("has the entry " + shownWords(name) + " twice");
+    throw Problem(twice("entry " + shownWords(name)));
   }
 }
 

@@ -69,6 +69,7 @@ using TransformLink = std::variant<AffineLink, SplineLink, FieldLink>;
 struct PointTransform
 {
   std::vector<TransformLink> links;
+  bool knowsSides = true; ///< false: RAS is a guess, as of an image that a link counts from
 };
 
 /** Where the chain takes a point (mm). NaN where a field has no number. */

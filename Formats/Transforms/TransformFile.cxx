@@ -48,6 +48,7 @@ void addField(DirectedField field, PointTransform& transform)
   }
   link.grid.gridFromWorld = glm::inverse(link.grid.worldFromGrid);
   link.displacements = std::move(field.displacements);
+  transform.knowsSides = transform.knowsSides && field.knowsSides;
   transform.links.emplace_back(std::move(link));
 }
 
@@ -99,8 +100,8 @@ glm::dmat4 voxelFromFSL(
   return result;
 }
 
-// RAS from the millimetres of FSL.
-glm::dmat4 readFSLFrame(const std::string& what, const std::string& image)
+// RAS from the millimetres of FSL. `knowsSides` becomes false if the image does not know them.
+glm::dmat4 readFSLFrame(const std::string& what, const std::string& image, bool& knowsSides)
 {
   if (image.empty())
   {
@@ -116,6 +117,7 @@ glm::dmat4 readFSLFrame(const std::string& what, const std::string& image)
     worldFromFSL =
       worldFromVoxel * voxelFromFSL(file.placement(), worldFromVoxel, header.dimensions.x);
   });
+  knowsSides = knowsSides && header.knowsSides;
   return worldFromFSL;
 }
 
@@ -206,8 +208,8 @@ private:
       addMatrix(rowsOf(signs * matrix * signs), transform);
       return;
     }
-    const glm::dmat4 fixed = readFSLFrame("fixed", this->Files.fixedImage);
-    const glm::dmat4 moving = readFSLFrame("moving", this->Files.movingImage);
+    const glm::dmat4 fixed = readFSLFrame("fixed", this->Files.fixedImage, transform.knowsSides);
+    const glm::dmat4 moving = readFSLFrame("moving", this->Files.movingImage, transform.knowsSides);
     if (glm::determinant(matrix) == 0.0)
     {
       throw Problem("holds a matrix without an inverse");

@@ -42,8 +42,8 @@ void readITKLine(const std::string& line, std::vector<TransformRecord>& records)
   std::vector<double>& numbers = isFixed ? record.fixed : record.parameters;
   throwIfAny(numbers.empty()
       ? ""
-      : std::string("has the line ") + (isFixed ? "FixedParameters: of " : "Parameters: of ") +
-        shownWords(record.type) + " twice");
+      : twice((isFixed ? "line FixedParameters: of " : "line Parameters: of ") +
+          shownWords(record.type)));
   if (!appendNumbers(value, numbers))
   {
     throw Problem("has parameters of " + shownWords(record.type) + " that are no numbers");

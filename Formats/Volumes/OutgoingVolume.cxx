@@ -172,10 +172,14 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   }
   if (!volume.knowsSides)
   {
-    warning += std::string(warning.empty() ? "" : ". ") +
-      "The world axes of the input are unknown: the file is written as RAS, with a remark. Set "
-      "World if you know the axes";
+    warning += std::string(warning.empty() ? "" : ". ") + UnknownSidesWritten +
+      ". Set World if you know the axes";
   }
+}
+
+bool needsTransform(const Grid& grid)
+{
+  return grid.direction != glm::dmat3(1.0) || grid.origin != glm::dvec3(0.0);
 }
 
 Grid withReversedXY(const Grid& grid)

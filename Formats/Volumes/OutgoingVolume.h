@@ -26,6 +26,10 @@ namespace brainshift
  */
 constexpr const char* UnknownSidesNote = "sides of the patient not known";
 
+/** What to know about such a file, without a full stop. */
+constexpr const char* UnknownSidesWritten =
+  "The world axes of the input are unknown: the file is written as RAS, with a remark";
+
 /**
  * What a MetaImage of three floating numbers says of itself if they are no displacements. The
  * reader of fields honours it; other programs pass over it.
@@ -70,6 +74,12 @@ struct OutgoingVolume
  */
 VTKBRAINSHIFTFORMATS_EXPORT void takeOut(vtkImageData* image, const std::string& arrayName,
   WorldAxes world, OutgoingVolume& volume, std::string& warning);
+
+/**
+ * Whether NIfTI needs a transform for this grid. Without one, and with both codes 0, it has the
+ * voxels along the axes, the first at 0 0 0, and claims no place in a patient.
+ */
+bool needsTransform(const Grid& grid);
 
 /** The same grid with x and y reversed: this leads from RAS to LPS and back. */
 Grid withReversedXY(const Grid& grid);

@@ -52,6 +52,10 @@ struct VolumeHeader
   bool isLabelMap = false;           ///< whether the file says that its values are labels
 };
 
+/** What a reader says of a file that does not know the sides, after the name of the file. */
+constexpr const char* UnknownSidesWarning =
+  "does not say where the sides of the patient are: left and right may be exchanged";
+
 /** Voxels in the file's order: the extent of the image begins at 0. */
 struct StoredVoxels
 {

@@ -24,6 +24,7 @@ using Kind = NumberType::Kind;
 
 constexpr std::size_t NIFTIBytes = 348;    // sizeof_hdr
 constexpr std::size_t ExtensionBytes = 4;  // all zero: no extension follows
+constexpr std::int16_t UnknownPlace = 0;   // NIFTI_XFORM_UNKNOWN
 constexpr std::int16_t ScannerAnatomy = 1; // NIFTI_XFORM_SCANNER_ANAT
 constexpr std::int16_t AlignedAnatomy = 2; // NIFTI_XFORM_ALIGNED_ANAT
 constexpr std::int16_t LabelIntent = 1002; // NIFTI_INTENT_LABEL
@@ -120,9 +121,10 @@ void setPlace(const OutgoingVolume& volume, NIFTIBytesOfHeader& header)
   header.set(256, static_cast<float>(turn.x));
   header.set(260, static_cast<float>(turn.y));
   header.set(264, static_cast<float>(turn.z));
-  // Without a code most readers would put the voxels somewhere else.
-  header.set(252, volume.knowsSides ? ScannerAnatomy : std::int16_t(0));
-  header.set(254, volume.knowsSides ? ScannerAnatomy : AlignedAnatomy);
+  // Without a code most readers would put a volume that needs its transform somewhere else.
+  const std::int16_t atLeast = needsTransform(grid) ? AlignedAnatomy : UnknownPlace;
+  header.set(252, volume.knowsSides ? ScannerAnatomy : UnknownPlace);
+  header.set(254, volume.knowsSides ? ScannerAnatomy : atLeast);
 }
 
 std::string metaImageType(const NumberType& type)

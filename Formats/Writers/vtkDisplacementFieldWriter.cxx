@@ -2,6 +2,7 @@
 #include "vtkDisplacementFieldWriter.h"
 
 #include "Common/Guard.h"
+#include "Common/WorldAxes.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Writers/LeftOut.h"
@@ -48,11 +49,24 @@ void vtkDisplacementFieldWriter::WriteImage()
     return;
   }
   DirectedField field{ gridOf(image), vectorsOf(array), directionOf(image) };
+  const WorldAxes said = worldAxesOf(image);
+  field.knowsSides = said != WorldAxes::Unknown || this->World == LPS;
   if (this->World == LPS)
   {
     reverseXY(field);
   }
   writeFieldFile(this->FileName, field);
+  const std::string file = "File " + this->FileName + ": ";
+  if (!field.knowsSides)
+  {
+    warn(this, file + UnknownSidesWritten + ". Set World to LPS if they are LPS");
+  }
+  else if (said != WorldAxes::Unknown && (said == WorldAxes::LPS) != (this->World == LPS))
+  {
+    warn(this,
+      file + "The world axes of the input are " + (said == WorldAxes::LPS ? "LPS" : "RAS") +
+        ", but World is " + (this->World == LPS ? "LPS" : "RAS") + ", which counts");
+  }
 }
 
 void vtkDisplacementFieldWriter::WriteVolume(vtkImageData* image)

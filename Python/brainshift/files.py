@@ -104,7 +104,8 @@ def save_field(filter, name, direction="Backward", spacing=None, world="RAS"):
       `"Forward"` maps the rest frame to the deformed frame.
     - `spacing`: three numbers in mm, the distances between samples along the axes of the volume.
       The default, `None`, takes the points of the volume itself.
-    - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of the volume.
+    - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of the volume. A warning says if the
+      volume carries none, which the file notes, or others.
 
     The new file takes the place of an old one only when the disk holds all of it.
 

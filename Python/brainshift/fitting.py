@@ -33,6 +33,12 @@ def _names(values):
     return labels if any(labels) else []
 
 
+def _point_axes(*lists):
+    """The properties that say where the axes of points lead, which a list of numbers does not."""
+    is_read = any(hasattr(values, "labels") for values in lists)  # results of read_points are RAS
+    return {"PointAxes": "RAS"} if is_read else {}
+
+
 def _pulls(values):
     """`values` as an N x 2 x 3 array: from, to."""
     import numpy
@@ -309,9 +315,10 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
     """
     from paraview import simple
 
+    axes = _point_axes(rest, measured, traces)
     rest, measured, pairing = _landmarks(rest, measured, by_order)
     traces, pulls, pins = _points("traces", traces), _pulls(pulls), _points("pins", pins)
-    values = {**_shared(filter), **_opening(opening), **pairing,
+    values = {**_shared(filter), **_opening(opening), **pairing, **axes,
               **_cortex(threshold, label, array, segmentation)}
     if cavity is not None:
         values["Cavity"] = cavity

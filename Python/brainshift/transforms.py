@@ -5,6 +5,7 @@ import math
 import os
 
 from .files import require_read, save_field
+from .views import world_axes
 
 #: Reverses x and y: from LPS, in which ITK's files are, to RAS and back.
 _LPS = (-1.0, -1.0, 1.0, 1.0)
@@ -72,6 +73,7 @@ class Transform:
     def __init__(self, report):
         self._report = report
         self.kind = report.GetProperty("Kind").GetElement(0)
+        self._knows_sides = bool(report.GetProperty("KnowsSides").GetElement(0))
         rows = _answer(report, "Matrix")
         self.moving_from_fixed = rows.reshape(4, 4) if len(rows) else None
 
@@ -138,12 +140,24 @@ def _middle(source):
     return numpy.array([(bounds[i] + bounds[i + 1]) / 2.0 for i in (0, 2, 4)])
 
 
-def _move_reference(compare, transform, direction):
+def _warn_of_sides(source, noun, world):
+    """Warns if a volume does not lie in the world of a transform, or does not say where it lies."""
+    import warnings
+    source.UpdatePipeline()
+    axes = world_axes(source)
+    if axes != world:
+        warnings.warn(f"The world axes of {noun} are {axes or 'unknown'}, and those of the "
+                      f"transform are {world or 'unknown'}: left and right may be exchanged "
+                      "between them. Check it in a picture", stacklevel=4)
+
+
+def _move_reference(compare, transform, direction, world):
     """Sets the rigid motion of a Compare Volumes."""
     import numpy
     if transform.kind not in ("identity", "rigid"):
         raise ValueError(f"the transform is {transform.kind}; Compare Volumes moves its reference "
                          "rigidly, so it must be rigid. Free-Form Deformation takes any transform")
+    _warn_of_sides(compare.Reference, "the reference", world if transform._knows_sides else None)
     matrix = transform.moving_from_fixed
     drawn_from_loaded = matrix if direction == "forward" else numpy.linalg.inv(matrix)
     left, _, right = numpy.linalg.svd(drawn_from_loaded[:3, :3])
@@ -185,7 +199,8 @@ def apply_transform(filter, files, direction="backward", world="RAS", fixed_imag
 
     Raises `OSError` with the reason if a file cannot be read, and `ValueError` if the filter cannot
     use the transform, or if `"forward"` a control point has no finite number. If `"backward"` a
-    warning names the control points that have none; the tissue there stays.
+    warning names the control points that have none; the tissue there stays. Another one says that
+    the volume or the reference does not carry the world axes `world`.
     """
     direction, files = _direction(direction), _names(files)
     kind = filter.SMProxy.GetXMLName()
@@ -194,7 +209,7 @@ def apply_transform(filter, files, direction="backward", world="RAS", fixed_imag
                          "Volumes")
     transform = read_transform(files, world, fixed_image, moving_image, program)
     if kind == "CompareVolumes":
-        _move_reference(filter, transform, direction)
+        _move_reference(filter, transform, direction, world)
         return 0.0
     return _bend(filter, files, {
         "Direction": direction.capitalize(), "World": world, "MatrixProgram": _program(program),
@@ -295,6 +310,8 @@ def save_transform(filter, name, direction="backward", spacing=None, world="RAS"
     direction, name = _direction(direction), os.fspath(name)
     kind = filter.SMProxy.GetXMLName()
     is_text = name.lower().endswith((".tfm", ".txt"))
+    if is_text:
+        _warn_of_sides(getattr(filter, "Reference", filter), "the volume", world)
     if kind == "CompareVolumes" and is_text:
         _save_rigid(filter, name, direction, world)
     elif kind == "FreeFormDeformation" and is_text:

@@ -242,7 +242,7 @@ def _slices_shown(views, source):
     return next((other for other in shown if other != source), shown[0] if shown else None)
 
 
-def _world_axes(source):
+def world_axes(source):
     """The world axes that the reader of the data has attached, or None."""
     attached = source.GetDataInformation().GetFieldDataInformation().GetArrayInformation(
         "WorldAxes")
@@ -288,7 +288,7 @@ def _look_at_slices(views, displays, convention, world, keeps):
             display.WorldAxes = world or "From the data"
         view.SMProxy.StillRender()  # the axes are known after that
         chosen = str(display.WorldAxes.GetData())
-        known = chosen if chosen in WORLDS else _world_axes(source)
+        known = chosen if chosen in WORLDS else world_axes(source)
         normals, _ = slice_axes(display)
         sides = [[sign * part for part in normal]
                  for sign, normal in zip(WORLDS[known or "RAS"], normals)]

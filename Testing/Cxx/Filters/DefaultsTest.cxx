@@ -129,6 +129,7 @@ TEST(Defaults, OfFitDeformationLiveInTheClass)
     { "Live", { double(filter->GetLive()) } },
     { "OpeningCentre", { centre[0], centre[1], centre[2] } },
     { "OpeningRadius", { filter->GetOpeningRadius() } },
+    { "PointAxes", { double(filter->GetPointAxes()) } },
     { "PairByOrder", { double(filter->GetPairByOrder()) } },
     { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
     { "Threshold", { filter->GetThreshold() } },

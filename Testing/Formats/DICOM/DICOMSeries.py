@@ -4,6 +4,7 @@
 # sentence, and that the patient's name goes nowhere.
 import os
 import shutil
+import struct
 import subprocess
 
 import numpy
@@ -176,6 +177,63 @@ def test_points_in_time_become_time_steps():
                 numpy.unique(scalars_now(reader)), numpy.unique(voxels[t]))
 
 
+def test_settings_that_have_several_times_are_entries_of_their_own():
+    """Echoes, b-values, flip angles and inversion times, each at two times. States that name all of
+    them together show the first."""
+    def timed(image, time):
+        image.AcquisitionDate, image.AcquisitionTime = "20240229", f"10{15 + 2 * time:02d}00"
+
+    voxels = numbered(16).reshape(2, 2, 4, 5, 6)
+    for keyword, pair, words in (("EchoTime", ("10", "20"), "EchoTime {} ms"),
+                                 ("DiffusionBValue", (0.0, 1000.0), "DiffusionBValue {} s/mm^2"),
+                                 ("FlipAngle", ("5", "30"), "FlipAngle {} degrees"),
+                                 ("InversionTime", ("300", "900"), "InversionTime {} ms")):
+        path = folder("settings")
+        for time in range(2):
+            for setting in range(2):
+                def change(image, _, time=time, setting=setting):
+                    setattr(image, keyword, pair[setting])
+                    timed(image, time)
+                write_slices(path, voxels[time, setting], change=change,
+                             start=1 + 100 * time + 10 * setting)
+        reader, told = read(path)
+        first = words.format(pair[0]).replace(".0", "")
+        assert_says(told, "several settings at several times", first)
+        assert len(names(reader)) == 2, names(reader)
+        for setting, name in enumerate(names(reader)):
+            said = words.format(pair[setting]).replace(".0", "")
+            assert "6 x 5 x 4, 2 times" in name and name.endswith(said), name
+            reader, _ = read(path, Series=name)
+            assert list(reader.TimestepValues) == [0.0, 120.0], reader.TimestepValues
+            for time in range(2):
+                reader.UpdatePipeline(120.0 * time)
+                numpy.testing.assert_array_equal(
+                    numpy.unique(scalars_now(reader)), numpy.unique(voxels[time, setting]))
+        former = names(reader)[0].split(f", {keyword}")[0].replace("2 times", "4 times")
+        reader, told = read(path, Series=former)
+        assert list(reader.TimestepValues) == [0.0, 120.0], (former, told)
+
+
+def test_settings_at_uneven_times_stay_one_series():
+    """A diffusion weighting of several directions beside an image without: in a row, as before."""
+    path = folder("weightings")
+    for t, weight in enumerate((0.0, 1000.0, 1000.0)):
+        def change(image, _, t=t, weight=weight):
+            image.DiffusionBValue = weight
+            image.InstanceNumber += 100 * t
+        write_slices(path, numbered(), change=change, start=1 + 100 * t)
+    reader, _ = read(path)
+    assert len(names(reader)) == 1 and len(reader.TimestepValues) == 3, names(reader)
+    path = folder("unfinished-echoes")
+    for t, (position, time) in enumerate(((1, "10"), (1, "20"), (2, "10"))):
+        def change(image, _, position=position, time=time):
+            image.TemporalPositionIdentifier, image.EchoTime = position, time
+        write_slices(path, numbered(), change=change, start=1 + 100 * t)
+    reader, told = read(path)
+    assert len(names(reader)) == 1 and list(reader.TimestepValues) == [0, 1, 2], names(reader)
+    assert_says(told, "of which not all have the same times; they are numbered 0, 1, 2")
+
+
 def scalars_now(reader):
     image = reader.GetClientSideObject().GetOutputDataObject(0)
     array = image.GetPointData().GetScalars()
@@ -227,6 +285,52 @@ def test_what_cannot_be_read_is_named():
     refused(palette, "PALETTE COLOR")
     refused(mosaic, "MOSAIC")
     refused(frames, "has 2 frames but no positions of them")
+
+
+def siemens_header(name, value):
+    """Siemens' own header (SV10) with one number, as text behind a name."""
+    text = value.encode().ljust(12, b"\0")
+    return (b"SV10\4\3\2\1" + struct.pack("<2I", 1, 77) + name.encode().ljust(64, b"\0")
+            + struct.pack("<i4s3i", 1, b"US", 9, 6, 77) + struct.pack("<4i", *4 * [len(value)])
+            + text)
+
+
+def test_mosaics_that_only_private_attributes_tell():
+    def private(group, creator, element, kind, value, matrix=None):
+        def change(image, _):
+            image.private_block(group, creator, create=True).add_new(element, kind, value)
+            if matrix:
+                image.AcquisitionMatrix = matrix
+        return change
+
+    voxels = numpy.arange(36, dtype=numpy.int16).reshape(1, 6, 6)
+    header = siemens_header("NumberOfImagesInMosaic", "9")
+    for group, creator, element, kind, value, words in (
+            (0x0019, "SIEMENS MR HEADER", 0x0a, "US", 9, "a mosaic of 9 slices"),
+            (0x0029, "SIEMENS CSA HEADER", 0x10, "OB", header, "a mosaic of 9 slices"),
+            (0x0051, "SIEMENS MR HEADER", 0x16, "LO", "p2 M/ND/MOSAIC", "p2 M/ND/MOSAIC")):
+        change = private(group, creator, element, kind, value)
+        refused(change, words, "convert it with dcm2niix", voxels=voxels)
+    for change in (private(0x0019, "SIEMENS MR HEADER", 0x0a, "US", 9, [0, 6, 6, 0]),
+                   private(0x0019, "SIEMENS MR HEADER", 0x0a, "US", 1),
+                   private(0x0019, "ANOTHER MAKER", 0x0a, "US", 9)):
+        path = write_slices(folder("slice-of-a-mosaic"), voxels, change=change)
+        reader, _ = read(path)
+        assert output(reader).GetNumberOfPoints() == 36
+
+
+def test_mosaics_that_nothing_tells_are_suspected():
+    def measured(side, maker):
+        def change(image, _):
+            image.AcquisitionMatrix, image.Manufacturer = [side, 0, 0, side], maker
+        return change
+
+    voxels = numpy.arange(36, dtype=numpy.int16).reshape(1, 6, 6)
+    for side, maker, doubts in ((2, "SIEMENS", True), (3, "SIEMENS", False), (2, "GE", False)):
+        path = write_slices(folder("suspected"), voxels, change=measured(side, maker))
+        reader, told = read(path)
+        assert ("they may be mosaics" in told) == doubts, (side, maker, told)
+        assert output(reader).GetNumberOfPoints() == 36
 
 
 def test_reports_are_no_slices():

@@ -95,6 +95,32 @@ def test_each_field_does_what_the_list_says():
                      lambda content: fields_walk.outcome("SurfaceReader", "walk.gii", content))
 
 
+def test_what_occurs_twice_is_refused_by_its_name():
+    good = gifti(inside=system(), labels=table(), meta=[("VolGeomC_R", "1")]).decode()
+    for old, new, words in (
+            ('Dimensionality="2"', 'Dimensionality="2" Dim0="4"',
+             "has the attribute Dim0 twice in an element in line 1"),
+            ('Key="1"', 'Key="1" Key="2"', "has the attribute Key twice in an element in line 1"),
+            ("</MD></MetaData>", "</MD><MD><Name>VolGeomC_R</Name><Value>2</Value></MD></MetaData>",
+             "has the metadata VolGeomC_R twice, with different values"),
+            ("<TransformedSpace>", "<DataSpace>HOME</DataSpace><TransformedSpace>",
+             "has the element DataSpace twice"),
+            ("<MatrixData>", f"<MatrixData>{SHIFT}</MatrixData><MatrixData>",
+             "has the element MatrixData twice"),
+            ("</LabelTable>", '<Label Key="1">two</Label></LabelTable>',
+             "has the label 1 twice, with different names")):
+        assert old in good, old
+        error, _ = fields_walk.outcome(
+            "SurfaceReader", "twice.gii", good.replace(old, new, 1).encode())
+        assert error and words in error, (error, words)
+    for old, new in (("</MD></MetaData>", "</MD><MD><Name>VolGeomC_R</Name><Value>1</Value></MD>"
+                      "</MetaData>"),
+                     ("</LabelTable>", '<Label Key="1">one</Label></LabelTable>')):
+        error, _ = fields_walk.outcome(
+            "SurfaceReader", "twice.gii", good.replace(old, new, 1).encode())
+        assert not error, error
+
+
 def indexed(index, numbers, kind="NIFTI_INTENT_SHAPE"):
     """A surface of 4 points whose numbers belong to some points, and what is shown or said."""
     both = (array(numpy.array(index, numpy.int32), "NIFTI_INTENT_NODE_INDEX")

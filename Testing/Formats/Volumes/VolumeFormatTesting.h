@@ -4,6 +4,7 @@
 #ifndef BrainShift_VolumeFormatTesting_h
 #define BrainShift_VolumeFormatTesting_h
 
+#include "Formats/Volumes/VolumeFile.h"
 #include "Formats/Volumes/vtkVolumeFileReader.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
@@ -81,6 +82,15 @@ struct FormatReading
 private:
   Errors Heard;
 };
+
+// Whether a reader only said that the file does not say where the sides of the patient are.
+inline bool isOnlyOfSides(const std::string& said)
+{
+  const std::string begin = "Warning: ";
+  const std::size_t first = said.find(begin);
+  return said.find(brainshift::UnknownSidesWarning) != std::string::npos &&
+    said.find(begin, first + 1) == std::string::npos && said.find("ERROR: ") == std::string::npos;
+}
 
 // A file is refused in a sentence with these words, and leaves no voxels.
 template <typename Reader>

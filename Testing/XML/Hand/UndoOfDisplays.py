@@ -149,6 +149,29 @@ def colors_that_are_gone():
     simple.Render()
 
 
+def kept_picture():
+    """A tool keeps the picture of a display while the hand hovers. No step of undo or redo that is
+    recorded meanwhile brings it back."""
+    begin_anew()
+    display = simple.GetDisplayProperties(scene["bent"], simple.GetActiveView())
+    display.SetRepresentationType("Deformed Volume")
+    hand.wait(300)
+    window.forget_undo()
+    builder = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder()
+    builder.Begin("Both")
+    display.Opacity = 0.5
+    display.KeepPicture = 1
+    builder.End()
+    builder.PushToStack()
+    assert window.undo_labels() == ["Both"], window.undo_labels()
+    with window.unrecorded():
+        display.KeepPicture = 0
+    for action, opacity in (("Undo", 1.0), ("Redo", 0.5)):
+        window.action(action)
+        display.UpdateSelfAndAllInputs()
+        assert (display.Opacity, display.KeepPicture) == (opacity, 0), (action, display.KeepPicture)
+
+
 def compare():
     hand.create_filter_of_two("CompareVolumes", scene["bent"], "Reference", scene["ball"])
 
@@ -161,4 +184,5 @@ window.main("UndoOfDisplays", [
     (set_up,), (two_choices, "Deformed Slices", "SliceComparison", "None", "Two colours"),
     (two_choices, "Deformed Volume", "VolumeComparison", "Off", "Two colours"),
     (in_four_views,), (begin_anew,), (undo_what_apply_showed, compare, "Show comparison"),
-    (begin_anew,), (undo_what_apply_showed, trace, "Show distances"), (colors_that_are_gone,)])
+    (begin_anew,), (undo_what_apply_showed, trace, "Show distances"), (colors_that_are_gone,),
+    (kept_picture,)])
