@@ -4,6 +4,7 @@
 #include "Interaction/Commands/Application.h"
 #include "Interaction/Displays/VolumeLook.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>

@@ -2,6 +2,7 @@
 #include "Interaction/Displays/LabelMaps.h"
 
 #include "Interaction/Commands/Application.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>

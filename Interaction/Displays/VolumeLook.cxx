@@ -2,8 +2,8 @@
 #include "Interaction/Displays/VolumeLook.h"
 
 #include "Filters/Looks/FirstCamera.h"
-#include "Interaction/Commands/Application.h"
 #include "Interaction/Views/Reports.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>

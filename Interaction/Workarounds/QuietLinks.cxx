@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Workarounds/QuietLinks.h"
 
-#include "Interaction/Commands/Application.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqApplicationCore.h>
 #include <pqServer.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Workarounds/RevivedViews.h"
 
-#include "Interaction/Commands/Application.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqApplicationCore.h>
 #include <pqServerManagerModel.h>
