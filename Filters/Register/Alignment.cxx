@@ -207,15 +207,15 @@ struct NearestVoxel
   GridFromWorld inMask;
 };
 
-// Takes the masks of what a reference lacks that have voxels.
-std::vector<Mask> missingOf(RegisteredPair& pair)
+// The masks of what a reference lacks that have voxels.
+std::vector<Mask> missingOf(const RegisteredPair& pair)
 {
   std::vector<Mask> found;
-  for (Mask* mask : { &pair.cavity, &pair.referenceUnknown })
+  for (const Mask* mask : { &pair.cavity, &pair.referenceUnknown })
   {
     if (!mask->inside.empty())
     {
-      found.push_back(std::move(*mask));
+      found.push_back(*mask);
     }
   }
   return found;
@@ -236,7 +236,8 @@ double scattered(std::uint32_t index, std::uint32_t salt)
 
 const double Alignment::LeastOverlap = 0.25;
 
-Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSettings& settings)
+Alignment::Alignment(
+  const RegisteredPair& pair, const Lattice* bent, const AlignmentSettings& settings)
   : Settings(settings)
   , Missing(missingOf(pair))
   , References(pyramid(pair.reference, settings.levelsMm))

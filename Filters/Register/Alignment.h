@@ -97,7 +97,8 @@ public:
    * @param pair   both in their present positions
    * @param bent   the deformation of the volume; null: none
    */
-  Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSettings& settings = {});
+  Alignment(
+    const RegisteredPair& pair, const Lattice* bent, const AlignmentSettings& settings = {});
 
   /** Searches one line. Nothing once it is finished. */
   const AlignmentProgress& step();

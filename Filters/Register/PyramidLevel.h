@@ -86,6 +86,9 @@ public:
     return this->Compared->compare(controls);
   }
 
+  /** Compares only samples in the half; once it is prepared. */
+  void restrictTo(const HalfSpace& half) { this->Compared->restrictTo(half); }
+
   const Grid& grid() const { return this->Samples; }
 
   /** Bytes that a level takes beside the volumes themselves. */

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Refinement.h"
 
-#include <utility>
-
 namespace brainshift
 {
 namespace
@@ -121,7 +119,6 @@ void Refinement::finishLevel()
     this->State.progress.isFinished = true;
     this->State.progress.level = this->LastUsed;
     this->Level = nullptr;
-    this->Pair = {};
     return;
   }
   if (!this->level().isComparedLike(levels[next])) // else it need not be prepared again

@@ -14,6 +14,8 @@
 
 #include "Filters/Register/RefinementSteps.h"
 
+#include <utility>
+
 namespace brainshift
 {
 class BRAINSHIFT_DEFORMATION_EXPORT Refinement
@@ -34,6 +36,9 @@ public:
 
   /** The lattice after the last step. */
   const Lattice& lattice() const { return this->State.bent; }
+
+  /** Hands the volumes back, once it is finished. */
+  RegisteredPair takePair() { return std::move(this->Pair); }
 
   /** Bytes that a refinement takes beside the volumes themselves. */
   static double bytes(const Grid& rest, const Grid& reference, const Grid& lattice,

@@ -54,7 +54,10 @@ class _Run:
         return numpy.array(numbers(self.proxy, name))
 
     def steps(self, result, callback):
-        """Steps until it is finished or the callback returns False. Returns the warning, or ""."""
+        """Steps until it is finished or the callback returns False. Gives the result its figures.
+
+        Raises `RegistrationFailed` if it failed its checks, and `ValueError` if nothing overlaps.
+        """
         taken = 0
         stop = False
         while not stop and not result.finished:
@@ -68,9 +71,41 @@ class _Run:
             # A call may have tried a length of a step only, or prepared a level.
             stop = (callback is not None and result.steps > taken and callback(result) is False)
             taken = result.steps
+        result.trust = self.figure("Trust")
+        result.warnings = [line for line in self.figure("Warning").split("\n") if line]
         if self.figure("Refusal"):
-            raise ValueError(self.figure("Refusal") + ". Nothing was changed")
-        return self.figure("Warning")
+            raise _refused(self.figure("Refusal"), result)
+
+
+class RegistrationFailed(ValueError):
+    """The result of `align` or `refine` failed its checks, and nothing was changed.
+
+    - `found`: the result, an `Alignment` or a `Refinement`, with its figures
+    """
+
+    def __init__(self, reason, found):
+        super().__init__(reason)
+        self.found = found
+
+
+def _refused(reason, result):
+    """The error for a result that is discarded."""
+    if result.trust == "failed":
+        return RegistrationFailed(
+            reason + ". Nothing was changed; keep_failed=True keeps the result", result)
+    return ValueError(reason + ". Nothing was changed")
+
+
+def _warn(result):
+    """Shows the warnings of a result to the caller of the function that made it."""
+    import warnings
+
+    if result.warnings:
+        warnings.warn(" ".join(result.warnings), stacklevel=3)
+
+
+def _check_text(result):
+    return ("finished" if result.finished else "stopped") + f", {result.trust}"
 
 
 class Alignment:
@@ -86,6 +121,9 @@ class Alignment:
       starts up to 20 mm and 15 degrees away.
     - `steps`, `level`: number of searched lines, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
+    - `trust`: how far the result may be trusted, by checks of itself: "good", "doubtful" or
+      "failed", or "unchecked" if the callback stopped it or too little was compared
+    - `warnings`: what you must check, a list of sentences
 
     Printed, it is a line of figures.
     """
@@ -96,12 +134,13 @@ class Alignment:
                "steps": "Steps", "turn": "Rotation"}
 
     finished = False
+    trust = "unchecked"
+    warnings = ()
 
     def __repr__(self):
         return (f"Alignment: moved by {self.shift:.2f} mm and {self.turn:.2f} degrees, information "
                 f"{self.information_before:.3f} to {self.information:.3f} nats, compared "
-                f"{self.compared:.2f} of the volume, {self.steps} steps, "
-                + ("finished" if self.finished else "stopped"))
+                f"{self.compared:.2f} of the volume, {self.steps} steps, " + _check_text(self))
 
 
 class Refinement:
@@ -119,6 +158,9 @@ class Refinement:
     - `moved`: the longest displacement of a control point in the last step
     - `steps`, `level`: number of steps, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
+    - `trust`: how far the result may be trusted, by checks of itself: "good", "doubtful" or
+      "failed", or "unchecked" if the callback stopped it or too little was compared
+    - `warnings`: what you must check, a list of sentences
 
     Printed, it is a line of figures.
     """
@@ -129,17 +171,18 @@ class Refinement:
                "moved": "LongestMove", "share": "StepFraction", "steps": "Steps"}
 
     finished = False
+    trust = "unchecked"
+    warnings = ()
     smallest_determinant = float("nan")  # until the run has ended
 
     def __repr__(self):
         return (f"Refinement: cost {self.disagreement_before:.4f} to {self.disagreement:.4f}, "
                 f"largest change {self.largest_change:.2f} mm, mean {self.mean_change:.2f} mm, "
                 f"smallest determinant {self.smallest_determinant:.3f}, compared "
-                f"{self.compared:.2f} of the volume, {self.steps} steps, "
-                + ("finished" if self.finished else "stopped"))
+                f"{self.compared:.2f} of the volume, {self.steps} steps, " + _check_text(self))
 
 
-def align(compare, callback=None):
+def align(compare, callback=None, keep_failed=False):
     """Register the reference rigidly: maximise its mutual information with the volume.
 
     The two volumes need no common contrast. The deformed volume is compared; under a mask only the
@@ -148,27 +191,27 @@ def align(compare, callback=None):
     - `compare`: a Compare Volumes. The search starts from the present position of its reference and
       sets `ReferenceRotation` and `ReferenceTranslation`.
     - `callback`: is called after each step with the `Alignment` so far. If it returns `False`, the
-      search stops. The default is `None`.
+      search stops, and the result is not checked. The default is `None`.
+    - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
+      `False`: it is an error, and the reference stays where it was.
 
     Returns an `Alignment`.
 
-    Raises `ValueError` with the reason if the volumes cannot be compared.
+    Raises `RegistrationFailed` if the result fails its checks, and `ValueError` with the reason if
+    the volumes cannot be compared. The reference then stays where it was.
     """
-    import warnings
-
-    start = {}  # another source has no reference, and the run reports that
-    if is_kind(compare, "CompareVolumes"):
-        start = {"StartRotation": compare.ReferenceRotation,
-                 "StartTranslation": compare.ReferenceTranslation}
+    start = {"KeepFailed": int(keep_failed)}
+    if is_kind(compare, "CompareVolumes"):  # else the run reports that there is no reference
+        start.update(StartRotation=compare.ReferenceRotation,
+                     StartTranslation=compare.ReferenceTranslation)
     run = _Run(compare, "BeginAlignment", **start)
     result = Alignment()
-    warning = run.steps(result, callback)
+    run.steps(result, callback)
     result.matrix = run.numbers("Motion").reshape(4, 4)
     result.rotation, result.translation = run.numbers("Placement").reshape(2, 3)
     compare.ReferenceRotation = result.rotation.tolist()
     compare.ReferenceTranslation = result.translation.tolist()
-    if warning:
-        warnings.warn(warning, stacklevel=2)
+    _warn(result)
     return result
 
 
@@ -211,7 +254,8 @@ def _hold(bent, control_points):
     return held
 
 
-def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callback=None):
+def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callback=None,
+           keep_failed=False):
     """Refine a deformation automatically so that the volume matches a reference.
 
     It starts from the present deformation, a fit and strokes, and changes it as little as the
@@ -228,15 +272,15 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     - `cavity`: a ParaView source of a mask, if `reference` is no Compare Volumes. Tissue inside
       it does not count.
     - `callback`: is called after each step with the `Refinement` so far. If it returns `False`,
-      that is the result. The default is `None`.
+      that is the result, and it is not checked. The default is `None`.
+    - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
+      `False`: it is an error, and the deformation stays as it was.
 
     Returns a `Refinement`.
 
-    Raises `ValueError` with the reason if the volumes cannot be compared. The deformation then
-    stays as it was.
+    Raises `RegistrationFailed` if the result fails its checks, and `ValueError` with the reason if
+    the volumes cannot be compared. The deformation then stays as it was.
     """
-    import warnings
-
     from paraview import simple
 
     names = list(similarities())
@@ -247,8 +291,9 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     result = Refinement()
     try:
         run = _Run(compare, "BeginRefinement", Stiffness=float(stiffness),
-                   Similarity=0 if similarity is None else names.index(similarity))
-        warning = run.steps(result, callback)
+                   Similarity=0 if similarity is None else names.index(similarity),
+                   KeepFailed=int(keep_failed))
+        run.steps(result, callback)
     finally:
         if made:
             simple.Delete(compare)
@@ -257,6 +302,5 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     result.filter = _hold(filter, run.numbers("ControlPoints"))
     result.smallest_determinant = filter.GetPropertyValue("MinimumJacobian")
     simple.SetActiveSource(active)
-    if warning:
-        warnings.warn(warning, stacklevel=2)
+    _warn(result)
     return result

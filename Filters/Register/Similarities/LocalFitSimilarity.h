@@ -106,6 +106,8 @@ public:
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
 
+  void restrictTo(const HalfSpace& half) override { this->Samples.restrictTo(half); }
+
 private:
   struct Work;
   void leaveOutIdleSamples();

@@ -215,11 +215,12 @@ public:
 
   bool prepare() override;
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
+  void restrictTo(const HalfSpace& half) override { this->Samples->restrictTo(half); }
 
 private:
   LevelVolumes Level; // while it is prepared
   Lattice Over;       // the same
-  std::unique_ptr<const LevelSamples> Samples;
+  std::unique_ptr<LevelSamples> Samples;
   std::vector<float> Rest;      // at the samples; while it is prepared, at the points
   std::vector<float> Reference; // at the points
 };
@@ -236,7 +237,7 @@ bool SelfSimilarity::prepare()
   }
   else if (!this->Samples)
   {
-    this->Samples = std::make_unique<const LevelSamples>(this->Level, this->Over);
+    this->Samples = std::make_unique<LevelSamples>(this->Level, this->Over);
     this->Rest = this->Samples->read(this->Rest, Channels);
     this->Level = {};
     this->Over = {};
@@ -275,20 +276,23 @@ CostAndForces SelfSimilarity::compare(const std::vector<glm::vec3>& displacement
   return result;
 }
 
-const Metric SelfSimilarityMetric{
-  // A position between points is read from all of them.
-  { SelfSimilaritySupport.along + 1, SelfSimilaritySupport.across + 1 },
-  SelfSimilarity::BytesPerPoint,
-  [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
-    return std::make_unique<SelfSimilarity>(std::move(level), lattice);
-  },
-};
+const Metric SelfSimilarityMetric = selfSimilarityMetric();
 
 // Where contrasts differ or slices are thick, self-similarity is least 0.4 to 0.6 mm beside the
 // right position. The local fit has no such bias, but finds positions from nearby only.
 const Metric QuadraticFit = quadraticFitMetric();
 
 constexpr double Converged = 1e-3; // a smaller gain comes from the noise
+}
+
+Metric selfSimilarityMetric()
+{
+  // A position between points is read from all of them.
+  const Support support{ SelfSimilaritySupport.along + 1, SelfSimilaritySupport.across + 1 };
+  return { support, SelfSimilarity::BytesPerPoint,
+    [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
+      return std::make_unique<SelfSimilarity>(std::move(level), lattice);
+    } };
 }
 
 Similarity describeSelfSimilarity()
@@ -302,6 +306,8 @@ Similarity describeSelfSimilarity()
   result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &SelfSimilarityMetric, 2.0 },
     { &QuadraticFit, 1.5, 1.0, false, true } };
   result.plan.converged = Converged;
+  result.plan.check.halves = { &SelfSimilarityMetric, 4.0, 1.0, true };
+  result.plan.check.other = { &QuadraticFit, 4.0, 1.0, true };
   return result;
 }
 }

@@ -3,6 +3,7 @@
 // random direction; the six parameters of a rigid motion average it out, so the volume moves as
 // a whole before it bends.
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
+#include "Filters/Register/Similarities/SelfSimilarity.h"
 
 namespace brainshift
 {
@@ -12,6 +13,7 @@ namespace
 constexpr double SpeckleStiffness = 5.0;
 
 const Metric UltrasoundMetric = linearFitWithGradients();
+const Metric SelfSimilarityMetric = selfSimilarityMetric();
 }
 
 Similarity describeUltrasound()
@@ -27,6 +29,8 @@ Similarity describeUltrasound()
     { &UltrasoundMetric, 1.0, 1.0, true }, { &UltrasoundMetric, 1.0 } };
   result.plan.stiffness = SpeckleStiffness;
   result.plan.fan = FanLimits{};
+  result.plan.check.halves = { &UltrasoundMetric, 1.0, 1.0, true };
+  result.plan.check.other = { &SelfSimilarityMetric, 1.0, 1.0, true };
   return result;
 }
 }

@@ -142,6 +142,7 @@ TEST(Defaults, OfRegistrationLiveInTheClass)
   const double* rotation = run->GetStartRotation();
   const double* translation = run->GetStartTranslation();
   const Defaults ofRun{
+    { "KeepFailed", { double(run->GetKeepFailed()) } },
     { "Similarity", { double(run->GetSimilarity()) } },
     { "StartRotation", { rotation[0], rotation[1], rotation[2] } },
     { "StartTranslation", { translation[0], translation[1], translation[2] } },

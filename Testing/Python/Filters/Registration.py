@@ -284,6 +284,62 @@ def test_what_the_cavity_covers_is_no_overlap():
             "has a partner in the reference outside the cavity; at least 25 % must")
 
 
+def other_volume():
+    """Tissue that has nothing in common with that of `rest_volume`."""
+    x, y, z = places()
+    return volume(tissue(0.8 * z + 11, x, 1.3 * y - 9).astype(numpy.float32), spacing=SPACING)
+
+
+def test_a_failed_result_changes_nothing():
+    rest = rest_volume()
+    strokes = tuple(brainshift.soft(MIDDLE, (2, 0, 0), 30.0))
+    bent = simple.FreeFormDeformation(Input=rest, Strokes=strokes)
+    compare = simple.CompareVolumes(Input=bent, Reference=other_volume())
+    for call, kind in ((lambda **how: brainshift.refine(bent, compare, **how),
+                        brainshift.Refinement),
+                       (lambda **how: brainshift.align(compare, **how), brainshift.Alignment)):
+        try:
+            call()
+        except brainshift.RegistrationFailed as failed:
+            found, reason = failed.found, str(failed)
+        else:
+            raise AssertionError("no error")
+        assert isinstance(found, kind) and found.trust == "failed" and found.finished, found
+        assert "failed its checks" in reason and "keep_failed=True" in reason, reason
+        assert found.warnings and all(one.endswith(".") for one in found.warnings), found.warnings
+        assert tuple(bent.Strokes) == strokes and not bent.Lattice, bent.Lattice
+        assert list(compare.ReferenceTranslation) == [0.0, 0.0, 0.0], compare.ReferenceTranslation
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            kept = call(keep_failed=True)
+        assert kept.trust == "failed" and kept.warnings == found.warnings, kept
+        assert any(kept.warnings[0] in str(one.message) for one in said), said
+        bent.Lattice, bent.Strokes = None, strokes
+
+
+def test_a_right_result_is_trusted():
+    rest = rest_volume()
+    bent = simple.FreeFormDeformation(Input=rest)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = brainshift.refine(bent, bent_reference(rest))
+        assert found.trust == "good" and found.warnings == [] and "good" in repr(found), found
+        compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(3, 2, 0))
+        found = brainshift.align(compare)
+        assert found.trust == "good" and found.warnings == [], found
+    stopped = brainshift.refine(bent, rest, callback=lambda progress: False)
+    assert stopped.trust == "unchecked" and "stopped, unchecked" in repr(stopped), stopped
+
+
+def test_a_mirrored_reference_is_named():
+    rest = rest_volume()
+    mirrored = volume(tissue(*places())[:, :, ::-1].astype(numpy.float32), spacing=SPACING)
+    compare = simple.CompareVolumes(Input=rest, Reference=mirrored)
+    refuses(lambda: brainshift.align(compare), "if it is mirrored from left to right")
+    refuses(lambda: brainshift.refine(simple.FreeFormDeformation(Input=rest), mirrored),
+            "if it is mirrored from left to right")
+
+
 def test_without_overlap_nothing_changes():
     rest = rest_volume()
     away = volume(tissue(*places()).astype(numpy.float32), origin=(500.0, 0.0, 0.0),
