@@ -11,7 +11,7 @@ namespace brainshift
 namespace
 {
 // A result fails by one check alone if its figure is so many times its limit.
-constexpr double FarBeyond = 2.5;
+constexpr double FarBeyond = 1.5;
 
 // The least gain of mutual information by another orientation, as a fraction.
 constexpr double LeastGain = 0.1;
