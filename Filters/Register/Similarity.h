@@ -170,6 +170,7 @@ struct RefinementLevel
   double mostCost = 1.0;  ///< a level that starts with more is skipped: it might mislead
   bool isRigid = false;   ///< the volume moves as a whole, in up to three times as many steps
   bool isCapped = false;  ///< the spacing grows until there are at most 0.95 million samples
+  int kept = 1; ///< of the positions found from several starts: the next level begins there
 
   /** Whether two levels have the same comparison. */
   bool isComparedLike(const RefinementLevel& other) const
@@ -203,7 +204,7 @@ struct RefinementPlan
   std::optional<FanLimits> fan;        ///< set: the reference is ultrasound inside a fan
   double converged = 1e-4;             ///< a level ends with a step that gains a smaller fraction
   StepGrowth bendGrowth;
-  StepGrowth rigidGrowth{ 4.0, 16.0, 2.0 };
+  StepGrowth rigidGrowth{ 8.0, 64.0, 2.0 };
   CheckPlan check;
 };
 

@@ -132,6 +132,16 @@ void vtkRegistrationRun::SetSimilarity(int similarity)
   }
 }
 
+void vtkRegistrationRun::SetStarts(int starts)
+{
+  const int clamped = std::clamp(starts, 1, MostStarts);
+  if (this->Starts != clamped)
+  {
+    this->Starts = clamped;
+    this->Modified();
+  }
+}
+
 void vtkRegistrationRun::SetSource(vtkAlgorithm* source)
 {
   this->Source = source;
@@ -155,6 +165,7 @@ void vtkRegistrationRun::Begin(bool bends)
   settings.plan = similarity.plan;
   settings.stiffness = this->Stiffness;
   this->Internal->Plan = similarity.plan;
+  settings.starts = this->Starts;
   this->OverlapOf = bends ? similarity.overlapOf : "the volume";
   const double voxels =
     sizeof(float) * static_cast<double>(grids.rest.count() + grids.reference.count());
@@ -184,8 +195,10 @@ void vtkRegistrationRun::Begin(bool bends)
     ? effectiveLattice(*source.bent)
     : makeLattice(withDimensions(grids.rest, glm::ivec3(StillSides)), KernelCatmullRom);
   this->Internal->Pair = std::move(source.pair);
+  AlignmentSettings search;
+  search.starts = this->Starts;
   this->Internal->Rigid = std::make_unique<Alignment>(
-    this->Internal->Pair, source.bent ? &this->Internal->Bent : nullptr);
+    this->Internal->Pair, source.bent ? &this->Internal->Bent : nullptr, search);
 }
 
 void vtkRegistrationRun::BeginGuarded(bool bends)
@@ -423,5 +436,6 @@ void vtkRegistrationRun::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Similarity: " << this->Similarity << "\n"
      << indent << "Stiffness: " << this->Stiffness << "\n"
      << indent << "KeepFailed: " << this->KeepFailed << "\n"
+     << indent << "Starts: " << this->Starts << "\n"
      << indent << "Problem: " << this->Problem << "\n";
 }

@@ -61,6 +61,16 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Number of positions from which a search begins: the present one, and others near it, always the
+   * same. The result with the least cost is kept. 1 to 64. An alignment and a refinement whose
+   * volume first moves rigidly take note of it. Default 1.
+   */
+  void SetStarts(int starts);
+  vtkGetMacro(Starts, int);
+  ///@}
+
+  ///@{
   /** Begins again, from the present position of the reference or the present deformation. */
   void BeginAlignment();
   void BeginRefinement();
@@ -163,6 +173,7 @@ private:
   int Similarity = 0;
   double Stiffness = 1.0;
   int KeepFailed = 0;
+  int Starts = 1;
   double StartRotation[3] = { 0.0, 0.0, 0.0 };
   double StartTranslation[3] = { 0.0, 0.0, 0.0 };
 

@@ -4,6 +4,8 @@
 from .fitting import forget_former, is_kind, own
 from .reports import numbers
 
+_MOST_STARTS = 64
+
 
 def _new_run(session):
     run = session.NewProxy("misc", "RegistrationRun")
@@ -182,7 +184,15 @@ class Refinement:
                 f"{self.compared:.2f} of the volume, {self.steps} steps, " + _check_text(self))
 
 
-def align(compare, callback=None, keep_failed=False):
+def _starts(starts):
+    """A number of starts, or an error that names the limits."""
+    if isinstance(starts, bool) or int(starts) != starts or not 1 <= starts <= _MOST_STARTS:
+        raise ValueError(f"starts is {starts!r}; it must be a whole number from 1 to "
+                         f"{_MOST_STARTS}")
+    return int(starts)
+
+
+def align(compare, callback=None, keep_failed=False, starts=1):
     """Register the reference rigidly: maximise its mutual information with the volume.
 
     The two volumes need no common contrast. The deformed volume is compared; under a mask only the
@@ -194,13 +204,16 @@ def align(compare, callback=None, keep_failed=False):
       search stops, and the result is not checked. The default is `None`.
     - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
       `False`: it is an error, and the reference stays where it was.
+    - `starts`: number of positions from which the search begins, 1 to 64. Beyond the present one
+      they are up to 30 mm and 30 degrees from it, always the same. The result with the most
+      information is kept. The default is 1.
 
     Returns an `Alignment`.
 
     Raises `RegistrationFailed` if the result fails its checks, and `ValueError` with the reason if
     the volumes cannot be compared. The reference then stays where it was.
     """
-    start = {"KeepFailed": int(keep_failed)}
+    start = {"Starts": _starts(starts), "KeepFailed": int(keep_failed)}
     if is_kind(compare, "CompareVolumes"):  # else the run reports that there is no reference
         start.update(StartRotation=compare.ReferenceRotation,
                      StartTranslation=compare.ReferenceTranslation)
@@ -255,7 +268,7 @@ def _hold(bent, control_points):
 
 
 def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callback=None,
-           keep_failed=False):
+           keep_failed=False, starts=1):
     """Refine a deformation automatically so that the volume matches a reference.
 
     It starts from the present deformation, a fit and strokes, and changes it as little as the
@@ -275,6 +288,10 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
       that is the result, and it is not checked. The default is `None`.
     - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
       `False`: it is an error, and the deformation stays as it was.
+    - `starts`: number of positions from which the volume moves rigidly before it bends, 1 to 64, for
+      `"ultrasound"`; for other similarities it makes no difference. Beyond the present one they are
+      up to 6 mm and 6 degrees from it, always the same. The result with the least cost is kept. The
+      default is 1. Take 8 if the position may be more than 3 mm off.
 
     Returns a `Refinement`.
 
@@ -286,13 +303,14 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     names = list(similarities())
     if similarity not in (None, *names):
         raise ValueError(f"similarity is {similarity!r}; it must be one of {names}")
+    starts = _starts(starts)
     active = simple.GetActiveSource()
     compare, made = _compared(filter, reference, cavity)
     result = Refinement()
     try:
         run = _Run(compare, "BeginRefinement", Stiffness=float(stiffness),
                    Similarity=0 if similarity is None else names.index(similarity),
-                   KeepFailed=int(keep_failed))
+                   KeepFailed=int(keep_failed), Starts=starts)
         run.steps(result, callback)
     finally:
         if made:

@@ -26,6 +26,12 @@ BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> selfSimilarity(const Volume& vo
 
 /** The mean squared difference of the 12 numbers of both volumes. */
 Metric selfSimilarityMetric();
+
+/**
+ * The squared difference of the numbers of both volumes and of those of their gradients' lengths,
+ * half each. Its support is one point: the reference must go on smoothly beyond the compared part.
+ */
+Metric selfSimilarityWithGradients();
 }
 
 #endif

@@ -82,6 +82,23 @@ def test_align_finds_a_known_motion():
     assert numpy.allclose(found.rotation, compare.ReferenceRotation)
 
 
+def test_several_starts_find_what_is_farther():
+    rest = rest_volume()
+    moved = volume((200 - tissue(*places())).astype(numpy.float32), spacing=SPACING)
+    apart = []
+    for starts in (1, 32):
+        compare = simple.CompareVolumes(Input=rest, Reference=moved, ReferenceRotation=(0, 0, 35),
+                                        ReferenceTranslation=(20, -16, 8))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            brainshift.align(compare, starts=starts)
+        apart.append(numpy.linalg.norm(compare.ReferenceTranslation))
+    assert apart[0] > 3.0 and apart[1] < 0.3, apart
+    for wrong in (0, 65, 1.5, True):
+        refuses(lambda of=wrong: brainshift.align(compare, starts=of),
+                f"starts is {wrong!r}; it must be a whole number from 1 to 64")
+
+
 def test_align_warns_beyond_what_was_tested():
     rest = rest_volume()
     compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(22, -12, 8))
@@ -219,6 +236,7 @@ def test_errors_leave_all_as_it_was():
             (lambda: brainshift.refine(bent, compare), "does not show this deformation"),
             (lambda: brainshift.refine(bent, rest, similarity="best"), "similarity is 'best'"),
             (lambda: brainshift.refine(bent, rest, stiffness=0.0), "Stiffness is 0"),
+            (lambda: brainshift.refine(bent, rest, starts=0), "starts is 0"),
             (lambda: brainshift.refine(bent, compare, cavity=rest), "has its own"),
             (lambda: brainshift.align(rest), "carries no reference")):
         refuses(call, words)
