@@ -91,7 +91,7 @@ void AlignEditor::followDeformation()
     SLOT(notice(vtkObject*, unsigned long, void*, void*)));
 }
 
-void AlignEditor::begin()
+void AlignEditor::begin(bool keepsFailed)
 {
   this->cancel();
   Flicker::stop();
@@ -102,7 +102,7 @@ void AlignEditor::begin()
     RefineEditor::of(bent)->stop();
   }
   this->Figures = {};
-  const QString problem = this->beginAlignment();
+  const QString problem = this->beginAlignment(keepsFailed);
   if (!problem.isEmpty())
   {
     this->end(State::Idle, problem);
@@ -112,7 +112,7 @@ void AlignEditor::begin()
   this->start();
 }
 
-QString AlignEditor::beginAlignment()
+QString AlignEditor::beginAlignment(bool keepsFailed)
 {
   if (this->Source->modifiedState() == pqProxy::UNINITIALIZED)
   {
@@ -125,6 +125,7 @@ QString AlignEditor::beginAlignment()
   vtkSMProxy* run = this->makeRun(compare);
   vtkSMPropertyHelper(run, "StartRotation").Set(&this->Start.rotation[0], 3);
   vtkSMPropertyHelper(run, "StartTranslation").Set(&this->Start.translation[0], 3);
+  vtkSMPropertyHelper(run, "KeepFailed").Set(keepsFailed ? 1 : 0);
   return this->beginRun("BeginAlignment");
 }
 
@@ -168,8 +169,9 @@ void AlignEditor::readFigures()
   at.informationBefore = this->figure("InformationBefore");
   at.shift = this->figure("Shift");
   at.rotation = this->figure("Rotation");
-  at.refusal = this->text("Refusal");
+  at.refusal = this->refusal(tr("The reference is back at its previous position."));
   at.warning = this->text("Warning");
+  at.trust = this->text("Trust");
 }
 
 void AlignEditor::takeStep()
@@ -186,11 +188,7 @@ void AlignEditor::takeStep()
     }
     this->readFigures();
   } while (this->Figures.done < 1.0 && since.elapsed() < SearchMs);
-  {
-    SCOPED_UNDO_EXCLUDE();
-    this->put(this->found());
-  }
-  drawMoving(this->Source);
+  this->show();
   if (!this->isActive())
   {
     return; // drawing may have processed an event that ended it
@@ -204,6 +202,21 @@ void AlignEditor::takeStep()
   Q_EMIT this->changed();
 }
 
+// The checks after the last line move nothing.
+void AlignEditor::show()
+{
+  const ReferencePlacement now = this->now();
+  const ReferencePlacement found = this->found();
+  if (found.rotation != now.rotation || found.translation != now.translation)
+  {
+    {
+      SCOPED_UNDO_EXCLUDE();
+      this->put(found);
+    }
+    drawMoving(this->Source);
+  }
+}
+
 void AlignEditor::keep(State end)
 {
   const bool hasBegun = this->Figures.lines > 0;
@@ -213,7 +226,7 @@ void AlignEditor::keep(State end)
   const QString refusal = this->Figures.refusal;
   if (!refusal.isEmpty())
   {
-    this->end(State::Idle, tr("%1. The reference is back at its previous position.").arg(refusal));
+    this->end(State::Idle, refusal);
     return;
   }
   if (found.rotation != this->Start.rotation || found.translation != this->Start.translation)

@@ -22,8 +22,9 @@ struct AlignFigures
   double informationBefore = 0.0; ///< of the reference where it was, on the same level
   double shift = 0.0;             ///< of the middle of the compared tissue, mm
   double rotation = 0.0;          ///< degrees, 0 or more
-  QString refusal;                ///< The reason to discard the result; empty if there is none.
+  QString refusal;                ///< Why the result is discarded: sentences; empty if it is not.
   QString warning;                ///< What the user must check; empty if nothing.
+  QString trust;                  ///< "unchecked", "good", "doubtful" or "failed"
 };
 
 class AlignEditor : public LiveRun
@@ -35,7 +36,7 @@ public:
   static AlignEditor* of(pqPipelineSource* source);
 
   /// Begins an alignment. If it cannot, problem() has the reason and nothing has changed.
-  void begin();
+  void begin(bool keepsFailed);
 
   const AlignFigures& figures() const { return this->Figures; }
 
@@ -57,13 +58,14 @@ private:
     glm::dvec3 translation{ 0.0 }; ///< mm, world axes
   };
 
-  QString beginAlignment();
+  QString beginAlignment(bool keepsFailed);
   void followDeformation();
   void readFigures();
   ReferencePlacement now() const;
   /// The present result of the search, rounded for the panel.
   ReferencePlacement found() const;
   void put(const ReferencePlacement& placement);
+  void show();
 
   AlignFigures Figures;
   ReferencePlacement Start;

@@ -70,6 +70,19 @@ QString LiveRun::beginRun(const char* command)
   return problem.isEmpty() ? QString() : problem + ".";
 }
 
+QString LiveRun::refusal(const QString& after) const
+{
+  const QString reason = this->text("Refusal");
+  if (reason.isEmpty())
+  {
+    return {};
+  }
+  const QString wayOut = this->text("Trust") == "failed"
+    ? tr(" Keep a failed result keeps it all the same.")
+    : QString();
+  return reason + ". " + after + wayOut;
+}
+
 bool LiveRun::advance()
 {
   if (!this->Proxy || !this->Proxy->GetSession()->GetIsAlive())

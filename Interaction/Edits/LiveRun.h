@@ -63,6 +63,8 @@ protected:
   vtkSMProxy* makeRun(vtkSMProxy* compared);
   /// Begins it by a command. Returns the reason if it cannot: a sentence; empty if it can.
   QString beginRun(const char* command);
+  /// Why the result is discarded, and the way out: sentences. Empty if it is not.
+  QString refusal(const QString& after) const;
   /// Takes a step, or a part of one. False if it failed or the server is gone.
   bool advance();
   /// Properties of the RegistrationRun, as of the last step.

@@ -240,6 +240,7 @@ QString RefineEditor::beginRefinement(const RefineSettings& settings)
   vtkSMProxy* run = this->makeRun(compared);
   vtkSMPropertyHelper(run, "Similarity").Set(settings.similarity);
   vtkSMPropertyHelper(run, "Stiffness").Set(settings.stiffness);
+  vtkSMPropertyHelper(run, "KeepFailed").Set(settings.keepsFailed ? 1 : 0);
   const QString problem = this->beginRun("BeginRefinement");
   this->Start = this->numbers("ControlPoints");
   this->Points = this->Start;
@@ -259,8 +260,9 @@ void RefineEditor::readFigures()
   at.stepFraction = this->figure("StepFraction");
   at.largestChange = this->figure("LargestChange");
   at.meanChange = this->figure("MeanChange");
-  at.refusal = this->text("Refusal");
+  at.refusal = this->refusal(tr("Nothing was changed."));
   at.warning = this->text("Warning");
+  at.trust = this->text("Trust");
   this->Points = this->numbers("ControlPoints");
   if (at.steps > former) // else the call tried a length of a step, or prepared a level
   {
@@ -327,7 +329,7 @@ void RefineEditor::takeStep()
   this->readFigures();
   if (!this->Figures.refusal.isEmpty())
   {
-    this->cancel(tr("%1. Nothing was changed.").arg(this->Figures.refusal));
+    this->cancel(this->Figures.refusal);
   }
   else if (this->Figures.done >= 1.0)
   {

@@ -24,6 +24,7 @@ struct RefineSettings
   pqPipelineSource* cavity = nullptr;    ///< null: none, or that of the Compare Volumes
   int similarity = 0;                    ///< its index in similaritiesFor
   double stiffness = 1.0;                ///< factor on the stiffness; above 0
+  bool keepsFailed = false;              ///< whether a result that fails its checks is kept
 };
 
 /// A similarity as the server lists it.
@@ -54,8 +55,9 @@ struct RefineFigures
   double stepFraction = 1.0;  ///< smallest fraction of a step that the fold guard allowed, 0 to 1
   double largestChange = 0.0; ///< of a control point since the start, mm
   double meanChange = 0.0;    ///< mm
-  QString refusal;            ///< The reason to discard the result; empty if there is none.
+  QString refusal;            ///< Why the result is discarded: sentences; empty if it is not.
   QString warning;            ///< What the user must check; empty if nothing.
+  QString trust;              ///< "unchecked", "good", "doubtful" or "failed"
   std::optional<double> smallestDeterminant; ///< Jacobian; known once the result was kept
 };
 

@@ -4,6 +4,7 @@
 #include "Interaction/Edits/AlignEditor.h"
 #include "Panel/Registered/PaneParts.h"
 
+#include <QCheckBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -42,7 +43,7 @@ QString alignResult(const QString& ended, const AlignFigures& figures)
            "%1 after %2 steps. Mutual information: %3 nats before, %4 now (higher is better). ")
            .arg(ended, QString::number(figures.lines), figure(figures.informationBefore, 3),
              figure(figures.information, 3)) +
-    moved(figures);
+    moved(figures) + " " + trustText(figures.trust);
 }
 }
 
@@ -56,6 +57,7 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   , Stop(makeButton("BrainShiftAlignStop", tr("Stop"),
       tr("Stop Align and keep the current position of the reference, as one undo step. Escape "
          "restores the position before Align.")))
+  , KeepFailed(makeKeepFailed("BrainShiftAlignKeepFailed"))
   , Progress(new QProgressBar)
   , Report(makeText("BrainShiftAlignSaid"))
   , Warning(makeText("BrainShiftAlignWarning"))
@@ -71,6 +73,7 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   row->addWidget(this->Stop);
   row->addStretch();
   column->addLayout(row);
+  column->addWidget(this->KeepFailed);
   for (QWidget* part : { static_cast<QWidget*>(this->Progress), static_cast<QWidget*>(this->Report),
          static_cast<QWidget*>(this->Warning) })
   {
@@ -78,7 +81,8 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   }
   if (this->Editor)
   {
-    this->connect(this->Align, &QToolButton::clicked, this->Editor, &AlignEditor::begin);
+    this->connect(this->Align, &QToolButton::clicked, this->Editor,
+      [this] { this->Editor->begin(this->KeepFailed->isChecked()); });
     this->connect(this->Stop, &QToolButton::clicked, this->Editor, &AlignEditor::stop);
     this->connect(this->Editor, &AlignEditor::changed, this, &AlignPane::refresh);
   }
@@ -94,6 +98,7 @@ void AlignPane::refresh()
   const bool active = this->Editor->isActive();
   this->Align->setEnabled(!active);
   this->Stop->setEnabled(active);
+  this->KeepFailed->setEnabled(!active);
   this->Progress->setVisible(active);
   this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));
   this->report();

@@ -4,6 +4,7 @@
 #include "Interaction/Displays/SharedSettings.h"
 #include "Panel/Parts/Advice.h"
 
+#include <QCheckBox>
 #include <QLabel>
 #include <QPainter>
 #include <QPolygonF>
@@ -45,6 +46,30 @@ QLabel* makeText(const char* name)
   text->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   text->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Minimum);
   return text;
+}
+
+QString trustText(const QString& trust)
+{
+  if (trust == "good")
+  {
+    return CostPlot::tr("Its checks found no fault.");
+  }
+  if (trust == "doubtful")
+  {
+    return CostPlot::tr("The result is doubtful.");
+  }
+  return trust == "failed" ? CostPlot::tr("The result failed its checks.")
+                           : CostPlot::tr("The result was not checked.");
+}
+
+QCheckBox* makeKeepFailed(const char* name)
+{
+  auto box = new QCheckBox(CostPlot::tr("Keep a failed result"));
+  box->setObjectName(name);
+  box->setToolTip(CostPlot::tr(
+    "Keep the result even if it fails its checks. Else it is discarded, and nothing changes."));
+  box->setFocusPolicy(Qt::TabFocus);
+  return box;
 }
 
 void showTexts(QLabel* report, const QString& text, QLabel* warning, const QString& warningText)

@@ -8,6 +8,7 @@
 #include <QString>
 #include <QWidget>
 
+class QCheckBox;
 class QLabel;
 class QToolButton;
 
@@ -18,6 +19,12 @@ QToolButton* makeButton(const char* name, const QString& text, const QString& ti
 
 /// A text that wraps and can be copied.
 QLabel* makeText(const char* name);
+
+/// A sentence about the trust in a result (AlignFigures::trust).
+QString trustText(const QString& trust);
+
+/// Whether a result that fails its checks is kept: a choice of the user.
+QCheckBox* makeKeepFailed(const char* name);
 
 /// Shows a report and a warning, each hidden if it is empty.
 void showTexts(QLabel* report, const QString& text, QLabel* warning, const QString& warningText);

@@ -11,6 +11,7 @@
 #include <vtkPVDataInformation.h>
 #include <vtkType.h>
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
@@ -150,6 +151,7 @@ QString refineResult(const QString& ended, const RefineFigures& figures)
     : RefinePane::tr("The guard against folding shortened no step.");
   lines +=
     RefinePane::tr("%1 % of %2 was compared.").arg(percent(figures.overlap), figures.overlapOf);
+  lines += trustText(figures.trust);
   return lines.join(' ');
 }
 
@@ -234,6 +236,8 @@ void RefinePane::addChoices(QVBoxLayout* column)
   this->Stiffness->setToolTip(
     tr("Factor on the stiffness of the volume. Above 1 it bends less, below 1 it bends more."));
   form->addRow(tr("Stiffness"), this->Stiffness);
+  this->KeepFailed = makeKeepFailed("BrainShiftRefineKeepFailed");
+  form->addRow(this->KeepFailed);
   column->addWidget(this->Choices);
   this->connect(this->Reference, &QComboBox::currentIndexChanged, this, &RefinePane::refresh);
 }
@@ -348,6 +352,7 @@ void RefinePane::refine()
   settings.cavity = isComparison(settings.reference) ? nullptr : this->chosen(this->Cavity);
   settings.similarity = this->Similarity->currentIndex();
   settings.stiffness = this->Stiffness->value();
+  settings.keepsFailed = this->KeepFailed->isChecked();
   this->Editor->begin(settings);
 }
 

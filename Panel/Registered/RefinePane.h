@@ -9,6 +9,7 @@
 #include <QTimer>
 #include <QWidget>
 
+class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
@@ -53,6 +54,7 @@ private:
   QComboBox* Cavity = nullptr;
   QComboBox* Similarity = nullptr;
   QDoubleSpinBox* Stiffness = nullptr;
+  QCheckBox* KeepFailed = nullptr;
   QWidget* Choices = nullptr;
   QWidget* CavityRow = nullptr;
   QToolButton* Refine = nullptr;

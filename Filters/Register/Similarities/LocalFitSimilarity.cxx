@@ -473,7 +473,7 @@ CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displace
 namespace
 {
 constexpr LocalFit ByVolume{};
-constexpr LocalFit ByGradients{ SecondTerm::GradientLength };
+constexpr LocalFit ByGradients{ SecondTerm::GradientLength, 2 };
 constexpr LocalFit BySquare{ SecondTerm::Square };
 
 template <const LocalFit& Fit>

@@ -106,6 +106,8 @@ public:
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
 
+  void restrictTo(const HalfSpace& half) override { this->Samples.restrictTo(half); }
+
 private:
   struct Work;
   void leaveOutIdleSamples();
@@ -131,7 +133,7 @@ private:
 
 /** The metrics of local fits. */
 Metric localCorrelationMetric(); ///< by the volume alone, windows of 7 points
-Metric linearFitWithGradients(); ///< LC2, windows of 7 points
+Metric linearFitWithGradients(); ///< LC2, windows of 5 points
 Metric quadraticFitMetric();     ///< by the volume and its square, windows of 7 points
 }
 

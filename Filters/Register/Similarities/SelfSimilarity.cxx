@@ -3,6 +3,7 @@
 
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -115,10 +116,9 @@ std::vector<float> selfSimilarity(const Volume& volume)
 namespace
 {
 constexpr int Lanes = 4; // numbers that a processor takes in one step
-constexpr int Channels = SelfSimilarityNumbers;
-static_assert(Channels % Lanes == 0, "every step is full");
+static_assert(SelfSimilarityNumbers % Lanes == 0, "every step is full");
 
-// Sums over the 12 numbers: squared difference, its products with the three slopes, and the
+// Sums over all numbers of a point: squared difference, its products with the three slopes, and the
 // products of the slopes.
 constexpr int Sums = 10;
 
@@ -141,7 +141,8 @@ inline void addProducts(
   }
 }
 
-// `rest`: 12 numbers of a sample. `reference`: those of the first of eight neighbours.
+// `rest`: the numbers of a sample. `reference`: those of the first of eight neighbours.
+template <int Channels>
 void compareNumbers(
   const float* rest, const float* reference, const Neighbours& at, float sums[][Lanes])
 {
@@ -200,12 +201,37 @@ float forceOf(
   return total[0];
 }
 
-// Mean squared difference of the 12 numbers of both volumes.
+// The numbers of each point of a volume; with `Images` 2, also those of its gradient's length.
+template <int Images>
+std::vector<float> numbersOf(Volume volume)
+{
+  std::vector<float> numbers = selfSimilarity(volume);
+  if constexpr (Images == 2)
+  {
+    volume.values = gradientLength(volume);
+    const std::vector<float> more = selfSimilarity(volume);
+    std::vector<float> both(2 * numbers.size());
+    const std::size_t points = volume.values.size();
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      float* to = &both[2 * i * SelfSimilarityNumbers];
+      to = std::copy_n(&numbers[i * SelfSimilarityNumbers], SelfSimilarityNumbers, to);
+      std::copy_n(&more[i * SelfSimilarityNumbers], SelfSimilarityNumbers, to);
+    }
+    return both;
+  }
+  return numbers;
+}
+
+// Mean squared difference of the numbers of both volumes, added up over 12.
+template <int Images>
 class SelfSimilarity : public Comparison
 {
 public:
-  /** For each point of a level: four times 12 numbers while it is prepared, and weights. */
-  static constexpr double BytesPerPoint = 208.0;
+  static constexpr int Channels = Images * SelfSimilarityNumbers;
+
+  /** For each point of a level: four times its numbers while it is prepared, and weights. */
+  static constexpr double BytesPerPoint = 16.0 + 4.0 * sizeof(float) * Channels;
 
   SelfSimilarity(LevelVolumes level, const Lattice& lattice)
     : Level(std::move(level))
@@ -213,38 +239,39 @@ public:
   {
   }
 
-  bool prepare() override;
+  bool prepare() override
+  {
+    if (this->Reference.empty())
+    {
+      this->Reference = numbersOf<Images>(std::move(this->Level.reference));
+    }
+    else if (this->Rest.empty())
+    {
+      this->Rest = numbersOf<Images>(this->Level.rest);
+    }
+    else if (!this->Samples)
+    {
+      this->Samples = std::make_unique<LevelSamples>(this->Level, this->Over);
+      this->Rest = this->Samples->read(this->Rest, Channels);
+      this->Level = {};
+      this->Over = {};
+    }
+    return this->Samples != nullptr;
+  }
+
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
+  void restrictTo(const HalfSpace& half) override { this->Samples->restrictTo(half); }
 
 private:
   LevelVolumes Level; // while it is prepared
   Lattice Over;       // the same
-  std::unique_ptr<const LevelSamples> Samples;
+  std::unique_ptr<LevelSamples> Samples;
   std::vector<float> Rest;      // at the samples; while it is prepared, at the points
   std::vector<float> Reference; // at the points
 };
 
-bool SelfSimilarity::prepare()
-{
-  if (this->Reference.empty())
-  {
-    this->Reference = selfSimilarity(this->Level.reference);
-  }
-  else if (this->Rest.empty())
-  {
-    this->Rest = selfSimilarity(this->Level.rest);
-  }
-  else if (!this->Samples)
-  {
-    this->Samples = std::make_unique<const LevelSamples>(this->Level, this->Over);
-    this->Rest = this->Samples->read(this->Rest, Channels);
-    this->Level = {};
-    this->Over = {};
-  }
-  return this->Samples != nullptr;
-}
-
-CostAndForces SelfSimilarity::compare(const std::vector<glm::vec3>& displacements)
+template <int Images>
+CostAndForces SelfSimilarity<Images>::compare(const std::vector<glm::vec3>& displacements)
 {
   const LevelSamples& samples = *this->Samples;
   const Grid& grid = samples.rows.samples();
@@ -259,11 +286,11 @@ CostAndForces SelfSimilarity::compare(const std::vector<glm::vec3>& displacement
       if (weight > 0.0f)
       {
         float sums[Sums][Lanes] = {};
-        compareNumbers(&this->Rest[sample.number * Channels],
+        compareNumbers<Channels>(&this->Rest[sample.number * Channels],
           &this->Reference[sample.at.first * Channels], sample.at, sums);
         float force[ForceNumbers];
-        rowSums[rowNumber] +=
-          weight * forceOf(sums, samples.stepsPerMm, weight, sample.freedom, force);
+        rowSums[rowNumber] += weight / Images *
+          forceOf(sums, samples.stepsPerMm, weight / Images, sample.freedom, force);
         rowWeights[rowNumber] += weight;
         LatticeRows::add(row, sample.taps, force);
       }
@@ -275,20 +302,31 @@ CostAndForces SelfSimilarity::compare(const std::vector<glm::vec3>& displacement
   return result;
 }
 
-const Metric SelfSimilarityMetric{
-  // A position between points is read from all of them.
-  { SelfSimilaritySupport.along + 1, SelfSimilaritySupport.across + 1 },
-  SelfSimilarity::BytesPerPoint,
-  [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
-    return std::make_unique<SelfSimilarity>(std::move(level), lattice);
-  },
-};
+template <int Images>
+std::unique_ptr<Comparison> made(LevelVolumes level, const Lattice& lattice)
+{
+  return std::make_unique<SelfSimilarity<Images>>(std::move(level), lattice);
+}
+
+const Metric SelfSimilarityMetric = selfSimilarityMetric();
 
 // Where contrasts differ or slices are thick, self-similarity is least 0.4 to 0.6 mm beside the
 // right position. The local fit has no such bias, but finds positions from nearby only.
 const Metric QuadraticFit = quadraticFitMetric();
 
 constexpr double Converged = 1e-3; // a smaller gain comes from the noise
+}
+
+Metric selfSimilarityMetric()
+{
+  // A position between points is read from all of them.
+  const Support support{ SelfSimilaritySupport.along + 1, SelfSimilaritySupport.across + 1 };
+  return { support, SelfSimilarity<1>::BytesPerPoint, &made<1> };
+}
+
+Metric selfSimilarityWithGradients()
+{
+  return { { 1, 1 }, SelfSimilarity<2>::BytesPerPoint, &made<2> };
 }
 
 Similarity describeSelfSimilarity()
@@ -302,6 +340,8 @@ Similarity describeSelfSimilarity()
   result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &SelfSimilarityMetric, 2.0 },
     { &QuadraticFit, 1.5, 1.0, false, true } };
   result.plan.converged = Converged;
+  result.plan.check.halves = { &SelfSimilarityMetric, 4.0, 1.0, true };
+  result.plan.check.other = { &QuadraticFit, 4.0, 1.0, true };
   return result;
 }
 }

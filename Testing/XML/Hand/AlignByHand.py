@@ -96,7 +96,8 @@ def the_picture_follows():
     assert pictures() > before, "no picture"
     window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
     assert apart() < NEAR, motion()
-    for words in ("Mutual information: ", " nats before", " mm and ", " degrees", " % of the vol"):
+    for words in ("Mutual information: ", " nats before", " mm and ", " degrees", " % of the vol",
+                  "Its checks found no fault"):
         assert words in said(), (words, said())
     assert not warned(), warned()
     assert undo_labels() == (["Align"] + undo)[:10], undo_labels()

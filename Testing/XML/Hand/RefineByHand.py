@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the panel's section Refine bends a volume step by step with a picture after each;
 that Pause holds it, Stop keeps what is reached as one step to undo, and Escape puts base and
-strokes back without one; that a state has the result; that a hand comes first; that a pull follows;
-and that it ends with a sentence when something is missing or goes away.
+strokes back without one; that a failed result changes nothing unless the user wants it; that a
+state has the result; that a hand comes first; that a pull follows; and that it ends with a sentence
+when something is missing or goes away.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
@@ -143,7 +144,7 @@ def stop_keeps_it():
     for _ in range(20):
         hand.wait(20)
     assert hand.in_sight("BrainShiftRefineSaid"), "the user must scroll to see what came out"
-    for words in ("Cost: ", " mm at most", "Jacobian", "guard"):
+    for words in ("Cost: ", " mm at most", "Jacobian", "guard", "was not checked"):
         assert words in said(), (words, said())
     assert not hand.label("BrainShiftRefineWarning"), hand.label("BrainShiftRefineWarning")
     assert undo_labels() == (["Refine"] + kept["undo"])[:10], undo_labels()
@@ -195,6 +196,7 @@ def it_ends_by_itself():
     assert hand.choose("BrainShiftRefineReference", "compared")
     begin()
     window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
+    assert "Its checks found no fault" in said(), said()
     panel_stays()
     assert undo_labels() == (["Refine"] + undo)[:10], undo_labels()
     assert len(lattices()) == 1, lattices()
@@ -205,6 +207,32 @@ def it_ends_by_itself():
     assert tuple(deformation().Lattice.ControlPoints) == was, "not the earlier result"
     window.action("Redo")
     assert tuple(deformation().Lattice.ControlPoints) != was
+
+
+def a_failed_result_changes_nothing():
+    """Waves that have nothing in common with those of the volume."""
+    with window.unrecorded():
+        simple.Wavelet(registrationName="other", WholeExtent=[0, SIDE] * 3, XFreq=61, YFreq=-13,
+                       ZFreq=47).UpdatePipeline()
+        simple.SetActiveSource(deformation())
+    hand.wait(100)
+    was = what_is()
+    assert hand.choose("BrainShiftRefineReference", "other")
+    assert hand.click("BrainShiftRefine")
+    window.until(lambda: hand.label("BrainShiftRefineWarning"), "a sentence")
+    told = hand.label("BrainShiftRefineWarning")
+    assert "failed its checks" in told and "Keep a failed result keeps it" in told, told
+    assert what_is() == was, "something has changed"
+    assert hand.click("BrainShiftRefineKeepFailed") and hand.click("BrainShiftRefine")
+    window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
+    assert "failed its checks" in said() and undo_labels()[0] == "Refine", said()
+    window.action("Undo")
+    assert hand.click("BrainShiftRefineKeepFailed")
+    with window.unrecorded():
+        simple.Delete(simple.FindSource("other"))
+        simple.SetActiveSource(deformation())
+    hand.wait(100)
+    assert hand.choose("BrainShiftRefineReference", "compared")
 
 
 def a_state_keeps_it():
@@ -360,6 +388,6 @@ def the_session_may_go():
 window.main("RefineByHand", [
     (set_up,), (closed_until_it_is_wanted,), (the_picture_follows,), (pause_holds_it,),
     (stop_keeps_it,), (it_is_one_step,), (escape_puts_all_back,), (it_ends_by_itself,),
-    (a_state_keeps_it,), (a_hand_comes_first,), (a_pull_follows_it,), (others_have_their_way,),
-    (what_is_wrong_is_said,), (a_reference_may_go,), (the_deformation_may_go,),
-    (the_session_may_go,)])
+    (a_failed_result_changes_nothing,), (a_state_keeps_it,), (a_hand_comes_first,),
+    (a_pull_follows_it,), (others_have_their_way,), (what_is_wrong_is_said,),
+    (a_reference_may_go,), (the_deformation_may_go,), (the_session_may_go,)])

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Register/Trust.h"
+
+#include "Common/Numbers.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+// A result fails by one check alone if its figure is so many times its limit.
+constexpr double FarBeyond = 1.5;
+
+// The least gain of mutual information by another orientation, as a fraction.
+constexpr double LeastGain = 0.1;
+
+std::string inMm(double mm)
+{
+  return roundedText(mm) + " mm";
+}
+
+double timesLimit(const std::optional<double>& figure, double limit)
+{
+  return figure ? *figure / limit : 0.0;
+}
+}
+
+const char* nameOf(Trust trust)
+{
+  constexpr const char* Names[] = { "unchecked", "good", "doubtful", "failed" };
+  return Names[static_cast<int>(trust)];
+}
+
+void Verdict::lower(Trust to, const std::string& reason)
+{
+  this->trust = std::max(this->trust, to);
+  this->reasons.push_back(reason);
+}
+
+Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
+{
+  Verdict verdict;
+  if (!figures.halvesMm && !figures.otherMm)
+  {
+    verdict.reasons.push_back("The result was not checked, because too little was compared.");
+    return verdict;
+  }
+  verdict.trust = Trust::Good;
+  const double halves = timesLimit(figures.halvesMm, limits.halvesMm);
+  const double other = timesLimit(figures.otherMm, limits.otherMm);
+  const bool hasFailed = (halves > 1.0 && other > 1.0) || std::max(halves, other) > FarBeyond;
+  const Trust trust = hasFailed ? Trust::Failed : Trust::Doubtful;
+  if (halves > 1.0)
+  {
+    verdict.lower(trust,
+      "Halves of what was compared, registered apart from the result, end " +
+        inMm(*figures.halvesMm) + " from each other on average; right results differ by up to " +
+        inMm(limits.halvesMm) + ".");
+  }
+  if (other > 1.0)
+  {
+    verdict.lower(trust,
+      "Another similarity moves the result by " + inMm(*figures.otherMm) +
+        " on average; it moves right results by up to " + inMm(limits.otherMm) + ".");
+  }
+  return verdict;
+}
+
+std::string orientationReason(const OrientationSearch& search, const glm::dmat3& axes)
+{
+  const double now = search.asItIs().information;
+  const double best = search.bestOther().information;
+  if (best <= (1.0 + LeastGain) * now)
+  {
+    return {};
+  }
+  return "The reference matches the volume better if it is " +
+    orientationText(search.bestOther().matrix, axes) + ": mutual information " + roundedText(best) +
+    " nats in place of " + roundedText(now) +
+    ". Check in which orientation the two volumes were read.";
+}
+
+Verification::Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan)
+  : Check(std::move(pair), result, plan)
+  , Limits(plan.check)
+  , TriesOrientations(!plan.fan)
+  , Result(result)
+{
+}
+
+bool Verification::step()
+{
+  if (this->IsFinished)
+  {
+    return false;
+  }
+  if (!this->Search)
+  {
+    if (this->Check.step())
+    {
+      return true;
+    }
+    this->Found = verdictOf(this->Check.figures(), this->Limits);
+    this->Search = std::make_unique<OrientationSearch>(this->Check.pair(), this->Result);
+    this->IsFinished = !this->TriesOrientations;
+    return !this->IsFinished;
+  }
+  if (this->Search->step())
+  {
+    return true;
+  }
+  const std::string reason =
+    orientationReason(*this->Search, this->Check.pair().rest.grid.direction);
+  if (!reason.empty())
+  {
+    this->Found.lower(Trust::Failed, reason);
+  }
+  this->IsFinished = true;
+  return false;
+}
+
+double Verification::done() const
+{
+  constexpr double OfCheck = 0.5;
+  const double searched = this->Search ? this->Search->done() : 0.0;
+  return this->IsFinished ? 1.0 : OfCheck * this->Check.done() + (1.0 - OfCheck) * searched;
+}
+}
