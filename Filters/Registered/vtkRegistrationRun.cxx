@@ -64,11 +64,6 @@ std::string rounded(double value, int digits = 0)
   return text.str();
 }
 
-std::string percent(double fraction)
-{
-  return rounded(100.0 * fraction) + " %";
-}
-
 void fill(vtkDoubleArray* array, const std::vector<double>& values)
 {
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
@@ -284,6 +279,7 @@ void vtkRegistrationRun::Report()
     (isRefused || (this->Internal->Checks && this->Internal->Checks->isFinished()));
   this->Done = isDone ? 1.0 : this->Internal->Done();
   this->Finished = isDone ? 1 : 0;
+  this->Checking = this->Internal->Checks && !isDone ? 1 : 0;
   if (isDone && !isRefused)
   {
     this->ReportChecks();
@@ -327,9 +323,9 @@ void vtkRegistrationRun::ReportAlignment()
   this->Rotation = rigid.rotationDegrees();
   if (this->Steps > 0 && this->Overlap < Alignment::LeastOverlap)
   {
-    this->Refusal = percent(this->Overlap) + " of the volume has a partner in the reference" +
-      this->Internal->Outside + "; at least " + percent(Alignment::LeastOverlap) +
-      " must have one. Move the reference closer first";
+    this->Refusal = "Only " + percentText(this->Overlap) +
+      " of the volume has a partner in the reference" + this->Internal->Outside + "; at least " +
+      percentText(Alignment::LeastOverlap) + " must have one. Move the reference closer first";
   }
   if (this->Shift > FarthestShiftMm || this->Rotation > FarthestDegrees)
   {
@@ -371,8 +367,9 @@ void vtkRegistrationRun::ReportRefinement()
   }
   if (this->Steps > 0 && this->Overlap < Alignment::LeastOverlap)
   {
-    this->Warn("Only " + percent(this->Overlap) + " of " + this->OverlapOf +
-      " has a partner in the reference; at least " + percent(Alignment::LeastOverlap) + " should.");
+    this->Warn("Only " + percentText(this->Overlap) + " of " + this->OverlapOf +
+      " has a partner in the reference; at least " + percentText(Alignment::LeastOverlap) +
+      " should.");
   }
 }
 

@@ -118,6 +118,7 @@ public:
   ///@{
   /** After the last step, of both kinds of run. */
   vtkGetMacro(Finished, int);   ///< 1 at its end, else 0
+  vtkGetMacro(Checking, int);   ///< 1 while it checks its result, else 0
   vtkGetMacro(Steps, int);      ///< that were taken; of an alignment: lines searched
   vtkGetMacro(Level, int);      ///< of the pyramid, from 0 on, the coarsest
   vtkGetMacro(Done, double);    ///< fraction of the most steps there may be, 0 to 1
@@ -186,6 +187,7 @@ private:
   std::string Trust = "unchecked";
   std::string OverlapOf = "the volume";
   int Finished = 0;
+  int Checking = 0;
   int Steps = 0;
   int Level = 0;
   double Done = 0.0;

@@ -91,7 +91,7 @@ void AlignEditor::followDeformation()
     SLOT(notice(vtkObject*, unsigned long, void*, void*)));
 }
 
-void AlignEditor::begin(bool keepsFailed)
+void AlignEditor::begin()
 {
   this->cancel();
   Flicker::stop();
@@ -102,7 +102,7 @@ void AlignEditor::begin(bool keepsFailed)
     RefineEditor::of(bent)->stop();
   }
   this->Figures = {};
-  const QString problem = this->beginAlignment(keepsFailed);
+  const QString problem = this->beginAlignment();
   if (!problem.isEmpty())
   {
     this->end(State::Idle, problem);
@@ -112,7 +112,7 @@ void AlignEditor::begin(bool keepsFailed)
   this->start();
 }
 
-QString AlignEditor::beginAlignment(bool keepsFailed)
+QString AlignEditor::beginAlignment()
 {
   if (this->Source->modifiedState() == pqProxy::UNINITIALIZED)
   {
@@ -125,7 +125,6 @@ QString AlignEditor::beginAlignment(bool keepsFailed)
   vtkSMProxy* run = this->makeRun(compare);
   vtkSMPropertyHelper(run, "StartRotation").Set(&this->Start.rotation[0], 3);
   vtkSMPropertyHelper(run, "StartTranslation").Set(&this->Start.translation[0], 3);
-  vtkSMPropertyHelper(run, "KeepFailed").Set(keepsFailed ? 1 : 0);
   return this->beginRun("BeginAlignment");
 }
 
@@ -169,9 +168,10 @@ void AlignEditor::readFigures()
   at.informationBefore = this->figure("InformationBefore");
   at.shift = this->figure("Shift");
   at.rotation = this->figure("Rotation");
-  at.refusal = this->refusal(tr("The reference is back at its previous position."));
+  at.refusal = this->text("Refusal");
   at.warning = this->text("Warning");
   at.trust = this->text("Trust");
+  at.isChecking = this->figure("Checking") != 0.0;
 }
 
 void AlignEditor::takeStep()
@@ -220,22 +220,28 @@ void AlignEditor::show()
 void AlignEditor::keep(State end)
 {
   const bool hasBegun = this->Figures.lines > 0;
-  const ReferencePlacement found = hasBegun ? this->found() : this->Start;
-  // Undo returns to the last state that the session saw, so restore the start first.
-  this->restore();
-  const QString refusal = this->Figures.refusal;
-  if (!refusal.isEmpty())
+  this->Result = hasBegun ? this->found() : this->Start;
+  if (!this->Figures.refusal.isEmpty())
   {
-    this->end(State::Idle, refusal);
+    this->discard(
+      tr("%1. The reference is back at its previous position.").arg(this->Figures.refusal));
     return;
   }
+  // Undo returns to the last state that the session saw, so restore the start first.
+  this->restore();
+  this->putResult();
+  this->end(end, {});
+}
+
+void AlignEditor::putResult()
+{
+  const ReferencePlacement& found = this->Result;
   if (found.rotation != this->Start.rotation || found.translation != this->Start.translation)
   {
     SCOPED_UNDO_SET(tr("Align"));
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Source->getProxy());
     this->put(found);
   }
-  this->end(end, {});
 }
 
 void AlignEditor::restore()
@@ -252,6 +258,16 @@ void AlignEditor::release()
     QObject::disconnect(edit);
   }
   this->Edits.clear();
+}
+
+bool AlignEditor::dependsOn(vtkObject* object, const char* property) const
+{
+  if (object == this->Source->getProxy())
+  {
+    return isAmong(Placement, property) || isAmong(Dependencies, property);
+  }
+  return isAmong(DeformationDependencies, property) ||
+    isLatticeSetting(vtkSMProxy::SafeDownCast(object), property);
 }
 
 void AlignEditor::followChange(vtkObject* object, const char* property)
@@ -271,8 +287,7 @@ void AlignEditor::followChange(vtkObject* object, const char* property)
     this->put(wanted);
     this->end(State::Idle, tr("%1 was changed, so Align ended.").arg(label));
   }
-  else if (isOwn ? isAmong(Dependencies, property)
-                 : isAmong(DeformationDependencies, property) || isLatticeSetting(proxy, property))
+  else
   {
     this->cancel(
       tr("%1 was changed, so Align ended. The reference is back at its previous position.")

@@ -22,9 +22,10 @@ struct AlignFigures
   double informationBefore = 0.0; ///< of the reference where it was, on the same level
   double shift = 0.0;             ///< of the middle of the compared tissue, mm
   double rotation = 0.0;          ///< degrees, 0 or more
-  QString refusal;                ///< Why the result is discarded: sentences; empty if it is not.
+  QString refusal;                ///< The reason to discard the result; empty if there is none.
   QString warning;                ///< What the user must check; empty if nothing.
   QString trust;                  ///< "unchecked", "good", "doubtful" or "failed"
+  bool isChecking = false;        ///< whether it has searched its last line and checks the result
 };
 
 class AlignEditor : public LiveRun
@@ -36,15 +37,17 @@ public:
   static AlignEditor* of(pqPipelineSource* source);
 
   /// Begins an alignment. If it cannot, problem() has the reason and nothing has changed.
-  void begin(bool keepsFailed);
+  void begin();
 
   const AlignFigures& figures() const { return this->Figures; }
 
 protected:
   void takeStep() override;
   void keep(State end) override;
+  void putResult() override;
   void restore() override; ///< The reference goes back to where it was.
   void release() override;
+  bool dependsOn(vtkObject* proxy, const char* property) const override;
   void followChange(vtkObject* proxy, const char* property) override;
   void followRemoval(pqPipelineSource* source) override;
 
@@ -58,7 +61,7 @@ private:
     glm::dvec3 translation{ 0.0 }; ///< mm, world axes
   };
 
-  QString beginAlignment(bool keepsFailed);
+  QString beginAlignment();
   void followDeformation();
   void readFigures();
   ReferencePlacement now() const;
@@ -69,6 +72,7 @@ private:
 
   AlignFigures Figures;
   ReferencePlacement Start;
+  ReferencePlacement Result; ///< after the last step
 
   // While it is active:
   vtkNew<vtkEventQtSlotConnect> OfDeformation;

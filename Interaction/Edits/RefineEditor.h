@@ -24,7 +24,6 @@ struct RefineSettings
   pqPipelineSource* cavity = nullptr;    ///< null: none, or that of the Compare Volumes
   int similarity = 0;                    ///< its index in similaritiesFor
   double stiffness = 1.0;                ///< factor on the stiffness; above 0
-  bool keepsFailed = false;              ///< whether a result that fails its checks is kept
 };
 
 /// A similarity as the server lists it.
@@ -55,9 +54,10 @@ struct RefineFigures
   double stepFraction = 1.0;  ///< smallest fraction of a step that the fold guard allowed, 0 to 1
   double largestChange = 0.0; ///< of a control point since the start, mm
   double meanChange = 0.0;    ///< mm
-  QString refusal;            ///< Why the result is discarded: sentences; empty if it is not.
+  QString refusal;            ///< The reason to discard the result; empty if there is none.
   QString warning;            ///< What the user must check; empty if nothing.
   QString trust;              ///< "unchecked", "good", "doubtful" or "failed"
+  bool isChecking = false;    ///< whether it has taken its last step and checks the result
   std::optional<double> smallestDeterminant; ///< Jacobian; known once the result was kept
 };
 
@@ -82,8 +82,10 @@ public:
 protected:
   void takeStep() override;
   void keep(State end) override;
+  void putResult() override;
   void restore() override;
   void release() override;
+  bool dependsOn(vtkObject* proxy, const char* property) const override;
   void followChange(vtkObject* proxy, const char* property) override;
   void followRemoval(pqPipelineSource* source) override;
   /// Removes the temporary lattice, unless the deformation uses it.

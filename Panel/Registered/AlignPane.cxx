@@ -4,7 +4,6 @@
 #include "Interaction/Edits/AlignEditor.h"
 #include "Panel/Registered/PaneParts.h"
 
-#include <QCheckBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -34,7 +33,7 @@ QString alignProgress(const AlignFigures& figures)
 {
   return AlignPane::tr("Step %1: mutual information %2 nats. ")
            .arg(QString::number(figures.lines), figure(figures.information, 3)) +
-    moved(figures);
+    moved(figures) + (figures.isChecking ? " " + checkingText() : QString());
 }
 
 QString alignResult(const QString& ended, const AlignFigures& figures)
@@ -57,10 +56,10 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   , Stop(makeButton("BrainShiftAlignStop", tr("Stop"),
       tr("Stop Align and keep the current position of the reference, as one undo step. Escape "
          "restores the position before Align.")))
-  , KeepFailed(makeKeepFailed("BrainShiftAlignKeepFailed"))
   , Progress(new QProgressBar)
   , Report(makeText("BrainShiftAlignSaid"))
   , Warning(makeText("BrainShiftAlignWarning"))
+  , Keep(makeKeep("BrainShiftAlignKeep"))
 {
   this->setObjectName("BrainShiftAlignPane");
   this->Progress->setObjectName("BrainShiftAlignProgress");
@@ -73,16 +72,16 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   row->addWidget(this->Stop);
   row->addStretch();
   column->addLayout(row);
-  column->addWidget(this->KeepFailed);
   for (QWidget* part : { static_cast<QWidget*>(this->Progress), static_cast<QWidget*>(this->Report),
          static_cast<QWidget*>(this->Warning) })
   {
     column->addWidget(part);
   }
+  column->addWidget(this->Keep);
   if (this->Editor)
   {
-    this->connect(this->Align, &QToolButton::clicked, this->Editor,
-      [this] { this->Editor->begin(this->KeepFailed->isChecked()); });
+    this->connect(this->Align, &QToolButton::clicked, this->Editor, &AlignEditor::begin);
+    this->connect(this->Keep, &QToolButton::clicked, this->Editor, &AlignEditor::keepDiscarded);
     this->connect(this->Stop, &QToolButton::clicked, this->Editor, &AlignEditor::stop);
     this->connect(this->Editor, &AlignEditor::changed, this, &AlignPane::refresh);
   }
@@ -98,7 +97,7 @@ void AlignPane::refresh()
   const bool active = this->Editor->isActive();
   this->Align->setEnabled(!active);
   this->Stop->setEnabled(active);
-  this->KeepFailed->setEnabled(!active);
+  this->Keep->setVisible(this->Editor->hasDiscarded());
   this->Progress->setVisible(active);
   this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));
   this->report();

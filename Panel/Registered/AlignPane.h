@@ -7,7 +7,6 @@
 #include <QPointer>
 #include <QWidget>
 
-class QCheckBox;
 class QLabel;
 class QProgressBar;
 class QToolButton;
@@ -31,10 +30,10 @@ private:
   const QPointer<AlignEditor> Editor; ///< It may go before its panel does.
   QToolButton* const Align;
   QToolButton* const Stop;
-  QCheckBox* const KeepFailed;
   QProgressBar* const Progress;
   QLabel* const Report;
   QLabel* const Warning;
+  QToolButton* const Keep;
 };
 }
 

@@ -9,7 +9,6 @@
 #include <QTimer>
 #include <QWidget>
 
-class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
@@ -21,6 +20,7 @@ class pqPipelineSource;
 namespace brainshift
 {
 class CostPlot;
+class LandmarkErrors;
 class RefineEditor;
 
 class RefinePane : public QWidget
@@ -48,13 +48,13 @@ private:
 
   const QPointer<pqPipelineSource> Deformation; ///< It may go before its panel does.
   const QPointer<RefineEditor> Editor;
+  const QPointer<LandmarkErrors> OfLandmarks;
   QToolButton* const Opener;
   QWidget* const Body;
   QComboBox* Reference = nullptr;
   QComboBox* Cavity = nullptr;
   QComboBox* Similarity = nullptr;
   QDoubleSpinBox* Stiffness = nullptr;
-  QCheckBox* KeepFailed = nullptr;
   QWidget* Choices = nullptr;
   QWidget* CavityRow = nullptr;
   QToolButton* Refine = nullptr;
@@ -64,6 +64,8 @@ private:
   CostPlot* Plot = nullptr;
   QLabel* Report = nullptr;
   QLabel* Warning = nullptr;
+  QLabel* Errors = nullptr;
+  QToolButton* Keep = nullptr;
   QTimer Soon; ///< Merges the events that change the lists.
 };
 }

@@ -288,10 +288,10 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
       that is the result, and it is not checked. The default is `None`.
     - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
       `False`: it is an error, and the deformation stays as it was.
-    - `starts`: number of positions from which the volume moves rigidly before it bends, 1 to 64, for
-      `"ultrasound"`; for other similarities it makes no difference. Beyond the present one they are
-      up to 6 mm and 6 degrees from it, always the same. The result with the least cost is kept. The
-      default is 1. Take 8 if the position may be more than 3 mm off.
+    - `starts`: number of positions from which the volume moves rigidly before it bends, 1 to 64.
+      Only the similarity for ultrasound moves it rigidly; for others it makes no difference. Beyond
+      the present one they are up to 6 mm and 6 degrees from it, always the same. The result with
+      the least cost is kept. The default is 1. Take 8 if the position may be more than 3 mm off.
 
     Returns a `Refinement`.
 

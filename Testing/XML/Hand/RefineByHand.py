@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the panel's section Refine bends a volume step by step with a picture after each;
 that Pause holds it, Stop keeps what is reached as one step to undo, and Escape puts base and
-strokes back without one; that a failed result changes nothing unless the user wants it; that a
-state has the result; that a hand comes first; that a pull follows; and that it ends with a sentence
-when something is missing or goes away.
+strokes back without one; that a failed result changes nothing unless the user wants it; that
+landmarks judge it; that a state has the result; that a hand comes first; that a pull follows; and
+that it ends with a sentence when something is missing or goes away.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
@@ -13,14 +13,14 @@ import brainshift
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import scratch
+from brainshift_testing import scratch, volume
 from paraview import simple
 from window_testing import deformation, undo_labels
 
 SIDE = 60  # voxels and mm
-POINTS = numpy.random.default_rng(5).uniform(10, SIDE - 10, (40, 3))
+POINTS = numpy.random.default_rng(5).uniform(18, SIDE - 18, (40, 3))
 HAND = tuple(brainshift.soft((30, 30, 30), (0.3, 0.2, -0.2), 40.0))
-FILE = scratch("after.vti")
+REST, FILE, NOISE = (scratch(f"{name}.vti") for name in ("rest", "after", "noise"))
 kept = {}
 
 
@@ -62,14 +62,30 @@ def begin():
     window.until(lambda: step() >= 2, "two steps")
 
 
-def write_reference():
-    """The wavelet as known strokes bend it. A file, for each filter here would have a panel."""
+def write(values, file):
+    source = volume(values.astype(numpy.float32))
+    simple.SaveData(file, proxy=source)
+    simple.Delete(source)
+
+
+def write_rest():
+    """Folds, longer than the deformation, in a ball."""
+    z, y, x = numpy.indices((SIDE + 1,) * 3) - SIDE / 2.0
+    folds = (numpy.sin(0.31 * x + 0.1 * y) + numpy.sin(0.27 * y - 0.12 * z)
+             + numpy.sin(0.29 * z + 0.08 * x) + numpy.sin(0.11 * (x + y + z)))
+    away = numpy.sqrt((x / 26.0) ** 2 + (y / 28.0) ** 2 + (z / 27.0) ** 2)
+    write((120 + 25 * folds) * numpy.clip(6 * (1 - away), 0, 1), REST)
+
+
+def write_references():
+    """The volume as known strokes bend it, and noise. Files: a filter here would have a panel."""
     strokes = brainshift.soft((30, 30, 30), (1.5, -1.2, 1.5), 40.0)
     bent = simple.FreeFormDeformation(Input=simple.FindSource("rest"), Strokes=strokes)
     baked = simple.BakeDeformation(Input=bent)
     baked.UpdatePipeline()
     kept["truth"] = numpy.array(brainshift.deformed_from_rest(bent, POINTS))
     simple.SaveData(FILE, proxy=baked)
+    write(numpy.random.default_rng(1).normal(0, 1, (SIDE + 1,) * 3), NOISE)
     simple.Delete(baked)
     simple.Delete(bent)
 
@@ -79,16 +95,16 @@ def open_reference():
 
 
 def set_up():
-    rest = simple.Wavelet(registrationName="rest", WholeExtent=[0, SIDE] * 3,
-                          XFreq=20, YFreq=17, ZFreq=23)  # waves longer than the bend
+    write_rest()
+    rest = simple.OpenDataFile(REST, registrationName="rest")
     view = simple.GetActiveViewOrCreate("RenderView")
-    write_reference()
+    write_references()
     open_reference()
     bent = simple.FreeFormDeformation(registrationName="bent", Input=rest, Strokes=HAND)
     display = simple.Show(bent, view)
     display.SetRepresentationType("Deformed Volume")
-    simple.ColorBy(display, ("POINTS", "RTData"))
-    simple.GetOpacityTransferFunction("RTData").Points = [37, 1, 0.5, 0, 277, 1, 0.5, 0]
+    simple.ColorBy(display, ("POINTS", "Intensity"))
+    simple.GetOpacityTransferFunction("Intensity").Points = [30, 0, 0.5, 0, 60, 1, 0.5, 0]
     simple.SetActiveSource(bent)
     simple.ResetCamera(view)
     simple.Render(view)
@@ -195,8 +211,8 @@ def it_ends_by_itself():
     hand.wait(100)
     assert hand.choose("BrainShiftRefineReference", "compared")
     begin()
-    window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
-    assert "Its checks found no fault" in said(), said()
+    window.until(lambda: said().startswith("Finished"), "an end", 120.0)
+    assert "Its checks found no fault" in said(), (said(), hand.label("BrainShiftRefineWarning"))
     panel_stays()
     assert undo_labels() == (["Refine"] + undo)[:10], undo_labels()
     assert len(lattices()) == 1, lattices()
@@ -210,28 +226,74 @@ def it_ends_by_itself():
 
 
 def a_failed_result_changes_nothing():
-    """Waves that have nothing in common with those of the volume."""
+    """Noise has nothing in common with the volume."""
     with window.unrecorded():
-        simple.Wavelet(registrationName="other", WholeExtent=[0, SIDE] * 3, XFreq=61, YFreq=-13,
-                       ZFreq=47).UpdatePipeline()
+        simple.OpenDataFile(NOISE, registrationName="other").UpdatePipeline()
         simple.SetActiveSource(deformation())
     hand.wait(100)
     was = what_is()
     assert hand.choose("BrainShiftRefineReference", "other")
     assert hand.click("BrainShiftRefine")
-    window.until(lambda: hand.label("BrainShiftRefineWarning"), "a sentence")
+    window.until(lambda: hand.label("BrainShiftRefineWarning"), "a sentence", 120.0)
     told = hand.label("BrainShiftRefineWarning")
-    assert "failed its checks" in told and "Keep a failed result keeps it" in told, told
+    assert "failed its checks" in told and "Nothing was changed." in told, told
     assert what_is() == was, "something has changed"
-    assert hand.click("BrainShiftRefineKeepFailed") and hand.click("BrainShiftRefine")
-    window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
-    assert "failed its checks" in said() and undo_labels()[0] == "Refine", said()
+    window.until(lambda: hand.is_visible("BrainShiftRefineKeep"), "a way to keep it")
+    assert hand.click("BrainShiftRefineKeep")
+    hand.wait(100)
+    assert said().startswith("Finished") and "failed its checks" in said(), said()
+    assert hand.label("BrainShiftRefineWarning") and not hand.is_visible("BrainShiftRefineKeep")
+    assert undo_labels() == (["Refine"] + was[-1])[:10] and lattices(), undo_labels()
     window.action("Undo")
-    assert hand.click("BrainShiftRefineKeepFailed")
+    assert what_is()[:3] == was[:3], "undo left something"
+    # Once the start has changed, the result would no longer follow from it.
+    assert hand.click("BrainShiftRefine")
+    window.until(lambda: hand.is_visible("BrainShiftRefineKeep"), "a failed result", 120.0)
+    with window.unrecorded():
+        deformation().Strength = 0.5
+        hand.wait(100)
+        assert not hand.is_visible("BrainShiftRefineKeep"), "kept on something else"
+        deformation().Strength = 1.0
     with window.unrecorded():
         simple.Delete(simple.FindSource("other"))
         simple.SetActiveSource(deformation())
     hand.wait(100)
+    assert hand.choose("BrainShiftRefineReference", "compared")
+
+
+def landmarks_judge_it():
+    """The fit goes, and with it the table of landmarks; the result shows their errors."""
+    truth, rest = kept["truth"][:5], POINTS[:5]
+    pairs = numpy.hstack([rest, truth, [[1], [1], [1], [1], [0]]])
+    former = deformation().Lattice
+    with window.unrecorded():
+        fit = simple.FitDeformation(registrationName="fit", Input=simple.FindSource("rest"),
+                                    LandmarkPairs=pairs.ravel().tolist())
+        deformation().Lattice = fit
+        deformation().Strokes = HAND
+        simple.SetActiveSource(deformation())
+        before = numpy.linalg.norm(field()[:5] - truth, axis=1)
+    window.until(lambda: hand.cell("BrainShiftLandmarks", 4, 0), "the list of landmarks")
+    assert hand.choose("BrainShiftRefineReference", "after")
+    assert hand.click("BrainShiftRefine")
+    window.until(lambda: said().startswith("Finished"), "an end", 120.0)
+    table = hand.label("BrainShiftRefineLandmarks")
+    found = numpy.array(re.findall(r">(\d+\.\d\d)", table), float).reshape(-1, 2)
+    now = numpy.linalg.norm(field()[:5] - truth, axis=1)
+    errors = numpy.stack([before, now], axis=1)
+    expected = numpy.vstack([errors.mean(axis=0), errors.max(axis=0), errors])
+    assert numpy.abs(found - expected).max() < 0.0051, (found, expected)
+    assert table.count("*") == 5 and now.mean() < before.mean(), (table, before, now)
+    with window.unrecorded():
+        deformation().Lattice = former
+        deformation().Strokes = []
+        simple.Delete(fit)
+        for name, number in simple.GetSources():
+            source = simple.FindSource(name)
+            if name.startswith("RefinedLattice") and source.SMProxy is not former.SMProxy:
+                simple.Delete(source)
+        simple.SetActiveSource(deformation())
+    hand.wait(200)
     assert hand.choose("BrainShiftRefineReference", "compared")
 
 
@@ -388,6 +450,6 @@ def the_session_may_go():
 window.main("RefineByHand", [
     (set_up,), (closed_until_it_is_wanted,), (the_picture_follows,), (pause_holds_it,),
     (stop_keeps_it,), (it_is_one_step,), (escape_puts_all_back,), (it_ends_by_itself,),
-    (a_failed_result_changes_nothing,), (a_state_keeps_it,), (a_hand_comes_first,),
-    (a_pull_follows_it,), (others_have_their_way,), (what_is_wrong_is_said,),
+    (a_failed_result_changes_nothing,), (landmarks_judge_it,), (a_state_keeps_it,),
+    (a_hand_comes_first,), (a_pull_follows_it,), (others_have_their_way,), (what_is_wrong_is_said,),
     (a_reference_may_go,), (the_deformation_may_go,), (the_session_may_go,)])
