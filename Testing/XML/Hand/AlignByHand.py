@@ -219,7 +219,13 @@ def a_failed_result_changes_nothing():
     assert undo_labels() == (["Align"] + undo)[:10], undo_labels()
     window.action("Undo")
     assert motion() == before, motion()
+    # Once the start has changed, the result would no longer follow from it.
+    assert hand.click("BrainShiftAlign")
+    window.until(lambda: hand.is_visible("BrainShiftAlignKeep"), "a failed result", 120.0)
     with window.unrecorded():
+        compare().ReferenceTranslation = [1.0, 0.0, 0.0]
+        hand.wait(100)
+        assert not hand.is_visible("BrainShiftAlignKeep"), "kept from another start"
         compare().Reference = rest
         simple.Delete(mirrored)
         simple.SetActiveSource(compare())
