@@ -16,6 +16,9 @@ constexpr double FarBeyond = 1.5;
 // The least gain of mutual information by another orientation, as a fraction.
 constexpr double LeastGain = 0.1;
 
+// The least fraction by which the cost is less far within the outline than beside a right result.
+constexpr double LeastGainInside = 0.2;
+
 std::string inMm(double mm)
 {
   return roundedText(mm) + " mm";
@@ -82,12 +85,59 @@ std::string orientationReason(const OrientationSearch& search, const glm::dmat3&
     ". Check in which orientation the two volumes were read.";
 }
 
+std::string insideReason(const InsideCheck& check)
+{
+  const std::optional<double> gain = check.gain();
+  if (!gain || *gain > LeastGainInside)
+  {
+    return {};
+  }
+  return "Far within the outlines the volumes match no better than " + inMm(check.besideMm()) +
+    " beside the result: the cost is " + roundedText(100.0 * *gain) +
+    " percent less; for right results it is " + roundedText(100.0 * LeastGainInside) +
+    " percent or more. The tissue may be another one.";
+}
+
 Verification::Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan)
   : Check(std::move(pair), result, plan)
   , Limits(plan.check)
-  , TriesOrientations(!plan.fan)
+  , IsOfHeads(!plan.fan)
   , Result(result)
 {
+}
+
+bool Verification::finishCheck()
+{
+  this->Found = verdictOf(this->Check.figures(), this->Limits);
+  this->IsFinished = !this->IsOfHeads;
+  if (this->IsOfHeads)
+  {
+    this->Inside =
+      std::make_unique<InsideCheck>(this->Check.pair(), this->Result, this->Limits.halves);
+  }
+  return this->IsOfHeads;
+}
+
+bool Verification::finishInside()
+{
+  const std::string reason = insideReason(*this->Inside);
+  if (!reason.empty())
+  {
+    this->Found.lower(Trust::Doubtful, reason);
+  }
+  this->Search = std::make_unique<OrientationSearch>(this->Check.pair(), this->Result);
+  return true;
+}
+
+void Verification::finishSearch()
+{
+  const std::string reason =
+    orientationReason(*this->Search, this->Check.pair().rest.grid.direction);
+  if (!reason.empty())
+  {
+    this->Found.lower(Trust::Failed, reason);
+  }
+  this->IsFinished = true;
 }
 
 bool Verification::step()
@@ -96,28 +146,19 @@ bool Verification::step()
   {
     return false;
   }
+  if (!this->Inside)
+  {
+    return this->Check.step() || this->finishCheck();
+  }
   if (!this->Search)
   {
-    if (this->Check.step())
-    {
-      return true;
-    }
-    this->Found = verdictOf(this->Check.figures(), this->Limits);
-    this->Search = std::make_unique<OrientationSearch>(this->Check.pair(), this->Result);
-    this->IsFinished = !this->TriesOrientations;
-    return !this->IsFinished;
+    return this->Inside->step() || this->finishInside();
   }
   if (this->Search->step())
   {
     return true;
   }
-  const std::string reason =
-    orientationReason(*this->Search, this->Check.pair().rest.grid.direction);
-  if (!reason.empty())
-  {
-    this->Found.lower(Trust::Failed, reason);
-  }
-  this->IsFinished = true;
+  this->finishSearch();
   return false;
 }
 

@@ -7,6 +7,7 @@
 #ifndef BrainShift_Trust_h
 #define BrainShift_Trust_h
 
+#include "Filters/Register/InsideCheck.h"
 #include "Filters/Register/Orientations.h"
 #include "Filters/Register/ResultCheck.h"
 
@@ -36,6 +37,9 @@ struct Verdict
 BRAINSHIFT_DEFORMATION_EXPORT Verdict verdictOf(
   const CheckFigures& figures, const CheckPlan& limits);
 
+/** Why the match far within the outlines is too weak: a sentence. Empty if it is not. */
+BRAINSHIFT_DEFORMATION_EXPORT std::string insideReason(const InsideCheck& check);
+
 /** Why a reference is in a wrong orientation: a sentence. Empty if no better one was found. */
 BRAINSHIFT_DEFORMATION_EXPORT std::string orientationReason(
   const OrientationSearch& search, const glm::dmat3& axes);
@@ -47,8 +51,9 @@ public:
   /**
    * @param pair     both volumes, the reference in its position
    * @param result   the deformation, over the volume's box
-   * @param plan     with the metrics and limits of the check. Orientations are not tried if the
-   *                 reference is ultrasound: a fan has too little in common with a head.
+   * @param plan     with the metrics and limits of the check. The tissue within the outline
+   *                 is not compared, and orientations are not tried, if the reference is
+   *                 ultrasound: a fan has too little in common with a head.
    */
   Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan);
 
@@ -64,10 +69,15 @@ public:
   const CheckFigures& figures() const { return this->Check.figures(); }
 
 private:
+  bool finishCheck();
+  bool finishInside();
+  void finishSearch();
+
   ResultCheck Check;
   CheckPlan Limits;
-  bool TriesOrientations;
+  bool IsOfHeads; // the reference is no ultrasound
   Lattice Result;
+  std::unique_ptr<InsideCheck> Inside;
   std::unique_ptr<OrientationSearch> Search;
   bool IsFinished = false;
   Verdict Found;
