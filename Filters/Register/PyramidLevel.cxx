@@ -2,6 +2,7 @@
 #include "Filters/Register/PyramidLevel.h"
 
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -372,19 +373,32 @@ void PyramidLevel::readReference()
     : resampled(smoothed(this->Pair.reference, this->SpacingMm), this->Samples);
 }
 
+// Beyond a fan the reference goes on smoothly, and beyond a mask the volume has its tissue. So only
+// what is missing counts with all of a descriptor's support if the reference is ultrasound.
+Volume PyramidLevel::weights(const Region& seen, const Region& known) const
+{
+  if (!this->Fan)
+  {
+    return weightsOf(
+      this->Samples, { seen.grid, seen.inside, known.outside }, this->Compares->support);
+  }
+  Volume result = weightsOf(this->Samples, seen, { 1, 1 });
+  const Volume whole = weightsOf(this->Samples, known, this->Compares->support);
+  std::transform(result.values.begin(), result.values.end(), whole.values.begin(),
+    result.values.begin(), std::multiplies<>());
+  return result;
+}
+
 void PyramidLevel::weighRest()
 {
-  this->Volumes.restWeights = weightsOf(this->Samples,
-    { nullptr, orNull(this->Pair.inside), { orNull(this->Pair.restUnknown) } },
-    this->Compares->support);
+  this->Volumes.restWeights = this->weights({ nullptr, orNull(this->Pair.inside), {} },
+    { nullptr, nullptr, { orNull(this->Pair.restUnknown) } });
 }
 
 void PyramidLevel::weighReference()
 {
-  this->Volumes.referenceWeights = weightsOf(this->Samples,
-    { &this->Pair.reference.grid, this->Fan,
-      { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } },
-    this->Compares->support);
+  this->Volumes.referenceWeights = this->weights({ &this->Pair.reference.grid, this->Fan, {} },
+    { nullptr, nullptr, { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } });
 }
 
 void PyramidLevel::makeComparison()

@@ -105,6 +105,7 @@ private:
   void weighRest();
   void weighReference();
   void makeComparison();
+  Volume weights(const Region& seen, const Region& known) const;
 
   const RegisteredPair& Pair;
   const Mask* Fan;

@@ -80,6 +80,7 @@ void Refinement::beginLevel()
   {
     this->findStarts();
   }
+  this->State.setStiffness(this->level().stiffness * this->Region.stiffness());
   this->Step = makeStep(this->Settings.plan, this->level(), this->Level->grid());
   this->LastUsed = this->Index;
   this->State.beginLevel(std::move(*this->Here), *this->AtStart);

@@ -139,16 +139,11 @@ void RefinementState::moveTo(const RigidPosition& position)
   this->bent = this->latticeOf(position.controls);
 }
 
-namespace
-{
-constexpr double FarthestStartMm = 6.0;
-constexpr double FarthestStartDegrees = 6.0;
-}
-
-RigidPosition RefinementState::startNear(const glm::dvec3& middle, int number) const
+RigidPosition RefinementState::startNear(
+  const glm::dvec3& middle, int number, double farthest) const
 {
   RigidPosition result{ this->startControls, this->startControls };
-  const StartMotion motion = startMotion(number, FarthestStartMm, FarthestStartDegrees);
+  const StartMotion motion = startMotion(number, farthest, farthest);
   if (number == 0)
   {
     return result;

@@ -8,7 +8,9 @@ namespace brainshift
 {
 namespace
 {
-constexpr int MostSteps = 30;          // of a run
+constexpr int MostSteps = 20;          // of a run
+constexpr double FarthestStart = 8.0;  // mm and degrees from the result
+constexpr double LeastRivalMm = 2.0;   // a place that is nearer is the same
 constexpr double LeastSamples = 800.0; // of a run over all of the compared part
 constexpr double LeastOfHalf = 200.0;  // samples
 constexpr double Finer = 0.5;          // times the spacing, if there are too few samples
@@ -21,7 +23,7 @@ ResultCheck::ResultCheck(RegisteredPair pair, const Lattice& result, const Refin
   , Result(result)
   , Now(plan.check.halves)
 {
-  this->Run = this->Now.metric && this->Plan.check.other.metric ? 0 : Runs;
+  this->Run = this->Now.metric ? 0 : Runs;
 }
 
 const RefinementLevel& ResultCheck::wanted() const
@@ -73,6 +75,11 @@ void ResultCheck::begin()
   this->State = std::make_unique<RefinementState>(this->Result, settings);
   this->State->setStiffness(1.0);
   this->Steps = 0;
+  if (!this->isHalf() && !this->isByOther())
+  {
+    this->State->moveTo(
+      this->State->startNear(this->Region.middle(), this->Run - HalfRuns, FarthestStart));
+  }
   if (this->isByOther() || this->Weights.empty())
   {
     this->Level->restrictTo({});
@@ -86,10 +93,7 @@ void ResultCheck::begin()
       this->weigh(all.forces);
     }
   }
-  if (!this->isByOther())
-  {
-    this->Level->restrictTo(this->half());
-  }
+  this->Level->restrictTo(this->isHalf() ? this->half() : HalfSpace{});
   CostAndForces here = this->Level->compare(this->State->controls);
   if (here.samples < LeastOfHalf)
   {
@@ -117,8 +121,7 @@ bool ResultCheck::isTooCoarse(double samples)
     this->Now = finer;
     return true;
   }
-  this->Run = this->isByOther() ? Runs : HalfRuns;
-  this->Now = this->wanted();
+  this->goTo(this->isByOther() ? Runs : OtherRun);
   return true;
 }
 
@@ -180,17 +183,9 @@ void ResultCheck::leaveOut()
   this->finishRun();
 }
 
-void ResultCheck::finishRun()
+void ResultCheck::finishHalf(const Controls& found)
 {
-  const Controls& found = this->State->controls;
-  if (this->isByOther())
-  {
-    if (!found.empty())
-    {
-      this->Figures.otherMm = this->motionMm(found, this->State->startControls);
-    }
-  }
-  else if (this->Run % 2 == 0)
+  if (this->Run % 2 == 0)
   {
     this->FirstHalf = found;
   }
@@ -200,8 +195,57 @@ void ResultCheck::finishRun()
     ++this->Axes;
     this->Figures.halvesMm = this->SumOfHalves / this->Axes;
   }
-  ++this->Run;
-  if (this->Run >= HalfRuns)
+}
+
+void ResultCheck::finishRival()
+{
+  const double cost = this->State->known.cost;
+  if (this->Run == HalfRuns)
+  {
+    this->Cost = cost;
+    return;
+  }
+  const double mm = this->motionMm(this->State->controls, this->State->startControls);
+  if (this->Cost <= 0.0)
+  {
+    return;
+  }
+  const double gain = cost / this->Cost - 1.0;
+  if (mm > LeastRivalMm && (!this->Figures.rivalGain || gain < *this->Figures.rivalGain))
+  {
+    this->Figures.rivalGain = gain;
+    this->Figures.rivalMm = mm;
+  }
+}
+
+void ResultCheck::finishRun()
+{
+  const Controls& found = this->State->controls;
+  if (this->isHalf())
+  {
+    this->finishHalf(found);
+  }
+  else if (!found.empty() && this->isByOther())
+  {
+    this->Figures.otherMm = this->motionMm(found, this->State->startControls);
+  }
+  else if (!found.empty())
+  {
+    this->finishRival();
+  }
+  this->goTo(this->Run + 1);
+}
+
+// Runs that the plan does not ask for are left out.
+void ResultCheck::goTo(int run)
+{
+  const CheckPlan& check = this->Plan.check;
+  this->Run = run == HalfRuns && check.rivalGain <= 0.0 ? OtherRun : run;
+  if (this->isByOther() && !check.other.metric)
+  {
+    this->Run = Runs;
+  }
+  if (this->Run >= OtherRun)
   {
     this->Level = nullptr; // another metric, or the end
     this->Now = this->wanted();

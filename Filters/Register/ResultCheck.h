@@ -4,8 +4,10 @@
 ///
 /// What was compared is cut in two along each axis, and each half is registered rigidly from the
 /// result. Halves of a right result end near each other. Halves of a wrong result do not, because
-/// chance made it. Then another metric registers all of it rigidly from the result: a wrong result
-/// is a minimum of one metric only.
+/// chance made it. Another metric registers all of it rigidly from the result: a wrong result is a
+/// minimum of one metric only. By ultrasound the volume is also registered from some places near the
+/// result: a right result costs clearly less than any other place where such a search ends; a wrong
+/// one is a minimum among many.
 #ifndef BrainShift_ResultCheck_h
 #define BrainShift_ResultCheck_h
 
@@ -19,6 +21,9 @@ struct CheckFigures
   /** Mean distance (mm) of the ends of two halves, a mean over the axes of the volume. */
   std::optional<double> halvesMm;
   std::optional<double> otherMm; ///< mean distance (mm) by which the other metric moves the result
+  /** Fraction by which the best other place costs more; absent if a search found none. */
+  std::optional<double> rivalGain{};
+  double rivalMm = 0.0; ///< mean distance of that place
 };
 
 class BRAINSHIFT_DEFORMATION_EXPORT ResultCheck
@@ -40,10 +45,13 @@ public:
   const RegisteredPair& pair() const { return this->Pair; }
 
 private:
-  static constexpr int HalfRuns = 6;        // two for each axis
-  static constexpr int Runs = HalfRuns + 1; // and one by the other metric
+  static constexpr int HalfRuns = 6;  // two for each axis
+  static constexpr int RivalRuns = 9; // from the result, and from places near it
+  static constexpr int OtherRun = HalfRuns + RivalRuns;
+  static constexpr int Runs = OtherRun + 1; // the last one is by the other metric
 
-  bool isByOther() const { return this->Run == HalfRuns; }
+  bool isHalf() const { return this->Run < HalfRuns; }
+  bool isByOther() const { return this->Run == OtherRun; }
   const RefinementLevel& wanted() const;
   void prepare();
   void begin();
@@ -51,7 +59,10 @@ private:
   HalfSpace half() const;
   void weigh(const ControlForces& forces);
   void takeStep();
+  void goTo(int run);
   void finishRun();
+  void finishHalf(const Controls& found);
+  void finishRival();
   void leaveOut();
   double motionMm(const Controls& a, const Controls& b) const;
 
@@ -64,6 +75,7 @@ private:
   std::vector<double> Weights; // of the control points, by their samples
   double SumOfHalves = 0.0;    // mm
   int Axes = 0;                // of which both halves were registered
+  double Cost = 0.0;           // of the place that the search finds from the result itself
 
   int Run = 0;
   int Steps = 0;       // of this run

@@ -171,6 +171,7 @@ struct RefinementLevel
   bool isRigid = false;   ///< the volume moves as a whole, in up to three times as many steps
   bool isCapped = false;  ///< the spacing grows until there are at most 0.95 million samples
   int kept = 1; ///< of the positions found from several starts: the next level begins there
+  double stiffness = 1.0; ///< factor on the stiffness of the plan
 
   /** Whether two levels have the same comparison. */
   bool isComparedLike(const RefinementLevel& other) const
@@ -192,8 +193,13 @@ struct CheckPlan
 {
   RefinementLevel halves; ///< rigid: it registers halves of what was compared
   RefinementLevel other;  ///< rigid: another metric, which registers all of it
-  double halvesMm = 3.0;  ///< mean distance of two halves
-  double otherMm = 1.0;   ///< mean distance by which the other metric moves the result
+  /**
+   * Least fraction by which any other place that a search nearby finds costs more, by the metric of
+   * the halves; 0: no search.
+   */
+  double rivalGain = 0.0;
+  double halvesMm = 3.0; ///< mean distance of two halves
+  double otherMm = 1.0;  ///< mean distance by which the other metric moves the result
 };
 
 /** The levels and factors of a refinement. */

@@ -68,6 +68,16 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
       "Another similarity moves the result by " + inMm(*figures.otherMm) +
         " on average; it moves right results by up to " + inMm(limits.otherMm) + ".");
   }
+  if (figures.rivalGain && *figures.rivalGain < limits.rivalGain)
+  {
+    verdict.lower(Trust::Failed,
+      "A search from places nearby ends " + inMm(figures.rivalMm) +
+        " away on average, where the volumes match " +
+        (*figures.rivalGain < 0.0 ? "better." : "nearly as well.") +
+        " Right results match clearly better than any other place. Start nearer to the right "
+        "place, "
+        "or from several places.");
+  }
   return verdict;
 }
 

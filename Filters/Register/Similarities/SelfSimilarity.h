@@ -29,9 +29,12 @@ Metric selfSimilarityMetric();
 
 /**
  * The squared difference of the numbers of both volumes and of those of their gradients' lengths,
- * half each. Its support is one point: the reference must go on smoothly beyond the compared part.
+ * half each. Samples count by the steepness of the volume.
  */
 Metric selfSimilarityWithGradients();
+
+/** The same by a quarter of the samples: for a search, in a quarter of the time. */
+Metric thinSelfSimilarityWithGradients();
 }
 
 #endif

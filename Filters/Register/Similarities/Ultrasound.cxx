@@ -16,13 +16,16 @@ namespace
 // Softer, the volume would fit the speckle by deformations that do not exist.
 constexpr double SpeckleStiffness = 5.0;
 
-// Costs of self-similarity differ so many times as much between positions as those of LC2.
-constexpr float LocalFitWeight = 4.0f;
+// Costs of self-similarity differ more between positions than those of LC2.
+constexpr float LocalFitWeight = 2.0f;
+
+constexpr double LeastRivalGain = 0.014;
 
 constexpr double SpacingMm = 1.0;
 constexpr int KeptPositions = 3; // of a search from several starts
 
-const Metric Coarse = selfSimilarityWithGradients();
+const Metric Search = thinSelfSimilarityWithGradients();
+const Metric Whole = selfSimilarityWithGradients();
 const Metric LC2 = linearFitWithGradients();
 
 // The weighted mean of both costs.
@@ -30,7 +33,7 @@ class BothCosts : public Comparison
 {
 public:
   BothCosts(LevelVolumes level, const Lattice& lattice)
-    : First(Coarse.make(level, lattice))
+    : First(Whole.make(level, lattice))
     , Second(LC2.make(std::move(level), lattice))
   {
   }
@@ -61,7 +64,7 @@ private:
   std::unique_ptr<Comparison> Second;
 };
 
-const Metric Fine{ Coarse.support, Coarse.bytesPerPoint + LC2.bytesPerPoint,
+const Metric Fine{ Whole.support, Whole.bytesPerPoint + LC2.bytesPerPoint,
   [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
     return std::make_unique<BothCosts>(std::move(level), lattice);
   } };
@@ -76,12 +79,12 @@ Similarity describeUltrasound()
                    "volumes and of their edges, and LC2. "
                    "The volume moves as a whole before it bends.";
   result.overlapOf = "the ultrasound fan";
-  result.plan.levels = { { &Coarse, SpacingMm, 1.0, true, false, KeptPositions },
+  result.plan.levels = { { &Search, SpacingMm, 1.0, true, false, KeptPositions },
     { &Fine, SpacingMm, 1.0, true }, { &Fine, SpacingMm } };
   result.plan.stiffness = SpeckleStiffness;
   result.plan.fan = FanLimits{};
-  result.plan.check.halves = { &Coarse, SpacingMm, 1.0, true };
-  result.plan.check.other = { &LC2, SpacingMm, 1.0, true };
+  result.plan.check.halves = { &Search, SpacingMm, 1.0, true };
+  result.plan.check.rivalGain = LeastRivalGain; // LC2 has its say in the result already
   return result;
 }
 }

@@ -150,6 +150,24 @@ TEST(Trust, OneFigureBeyondItsLimitIsDoubtfulAndTwoFail)
   EXPECT_EQ(trust({}, {}), Trust::Unchecked);
 }
 
+TEST(Trust, APlaceNearbyThatMatchesAsWellFails)
+{
+  CheckPlan limits;
+  limits.rivalGain = 0.014;
+  CheckFigures figures;
+  figures.halvesMm = 1.0;
+  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Good) << "the search found no other place";
+  figures.rivalGain = 0.05;
+  figures.rivalMm = 6.0;
+  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Good);
+  figures.rivalGain = 0.01;
+  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Failed);
+  EXPECT_TRUE(says(verdictOf(figures, limits), "6 mm away on average"));
+  EXPECT_TRUE(says(verdictOf(figures, limits), "nearly as well"));
+  figures.rivalGain = -0.02;
+  EXPECT_TRUE(says(verdictOf(figures, limits), "match better"));
+}
+
 TEST(Trust, AVerdictKeepsTheWorst)
 {
   Verdict verdict;
