@@ -241,13 +241,11 @@ double boxVolume(const Grid& grid)
   return sides.x * sides.y * sides.z;
 }
 
-// The reference on a grid, smoothly continued beyond its fan and into what it lacks: a mean of what
-// counts, by a Gaussian as for any volume, then by boxes as far as descriptors reach.
-Volume filledAround(const RegisteredPair& pair, const Mask& fan, double spacingMm, const Grid& to)
+// The reference on a grid, smoothly continued beyond its fan: a mean of what lies inside, by a
+// Gaussian as for any volume, then by boxes as far as descriptors reach.
+Volume filledAround(const Volume& reference, const Mask& fan, double spacingMm, const Grid& to)
 {
-  const Volume& reference = pair.reference;
-  Volume inside = weightsOf(
-    reference.grid, { nullptr, &fan, { orNull(pair.cavity), orNull(pair.referenceUnknown) } }, {});
+  Volume inside = weightsOf(reference.grid, { nullptr, &fan, nullptr }, {});
   Volume values = reference;
   for (std::size_t i = 0; i < values.values.size(); ++i)
   {
@@ -369,7 +367,7 @@ void PyramidLevel::readRest()
 void PyramidLevel::readReference()
 {
   this->Volumes.reference = this->Fan
-    ? filledAround(this->Pair, *this->Fan, this->SpacingMm, this->Samples)
+    ? filledAround(this->Pair.reference, *this->Fan, this->SpacingMm, this->Samples)
     : resampled(smoothed(this->Pair.reference, this->SpacingMm), this->Samples);
 }
 
