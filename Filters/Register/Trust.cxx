@@ -76,8 +76,7 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
         " away on average, where the volumes match " +
         (*figures.rivalGain < 0.0 ? "better." : "nearly as well.") +
         " Right results match clearly better than any other place. Start nearer to the right "
-        "place, "
-        "or from several places.");
+        "place, or from several places.");
   }
   return verdict;
 }
