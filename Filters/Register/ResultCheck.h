@@ -46,7 +46,7 @@ public:
 
 private:
   static constexpr int HalfRuns = 6;  // two for each axis
-  static constexpr int RivalRuns = 9; // from the result, and from places near it
+  static constexpr int RivalRuns = 7; // from the result, and from places near it
   static constexpr int OtherRun = HalfRuns + RivalRuns;
   static constexpr int Runs = OtherRun + 1; // the last one is by the other metric
 

@@ -59,13 +59,14 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
   {
     verdict.lower(trust,
       "Halves of what was compared, registered apart from the result, end " +
-        inMm(*figures.halvesMm) + " from each other on average; right results differ by up to " +
-        inMm(limits.halvesMm) + ".");
+        inMm(figures.halvesMm.value_or(0.0)) +
+        " from each other on average; right results differ by up to " + inMm(limits.halvesMm) +
+        ".");
   }
   if (other > 1.0)
   {
     verdict.lower(trust,
-      "Another similarity moves the result by " + inMm(*figures.otherMm) +
+      "Another similarity moves the result by " + inMm(figures.otherMm.value_or(0.0)) +
         " on average; it moves right results by up to " + inMm(limits.otherMm) + ".");
   }
   if (figures.rivalGain && *figures.rivalGain < limits.rivalGain)
@@ -75,8 +76,7 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
         " away on average, where the volumes match " +
         (*figures.rivalGain < 0.0 ? "better." : "nearly as well.") +
         " Right results match clearly better than any other place. Start nearer to the right "
-        "place, "
-        "or from several places.");
+        "place, or from several places.");
   }
   return verdict;
 }

@@ -19,7 +19,7 @@ constexpr double SpeckleStiffness = 5.0;
 // Costs of self-similarity differ more between positions than those of LC2.
 constexpr float LocalFitWeight = 2.0f;
 
-constexpr double LeastRivalGain = 0.014;
+constexpr double LeastRivalGain = 0.015;
 
 constexpr double SpacingMm = 1.0;
 constexpr int KeptPositions = 3; // of a search from several starts
