@@ -24,14 +24,14 @@ LandmarkErrors* LandmarkErrors::of(pqPipelineSource* deformation)
 LandmarkErrors::LandmarkErrors(pqPipelineSource* deformation)
   : QObject(deformation)
   , Deformation(deformation)
+  , Editor(RefineEditor::of(deformation))
 {
-  this->connect(
-    RefineEditor::of(deformation), &RefineEditor::changed, this, &LandmarkErrors::follow);
+  this->connect(this->Editor, &RefineEditor::changed, this, &LandmarkErrors::follow);
 }
 
 void LandmarkErrors::follow()
 {
-  const LiveRun::State now = RefineEditor::of(this->Deformation)->state();
+  const LiveRun::State now = this->Editor->state();
   const LiveRun::State last = std::exchange(this->Last, now);
   const bool wasActive = last == LiveRun::State::Running || last == LiveRun::State::Paused;
   if (now == LiveRun::State::Running && !wasActive)

@@ -40,6 +40,7 @@ private:
   void measure();
 
   pqPipelineSource* const Deformation;
+  RefineEditor* const Editor;
   LiveRun::State Last = LiveRun::State::Idle;
   std::vector<LandmarkRow> AtStart;
   QList<LandmarkError> Errors;

@@ -146,6 +146,15 @@ def stop_keeps_it():
     assert undo_labels() == (["Align"] + undo)[:10], undo_labels()
     window.action("Undo")
     assert motion() == before, motion()
+    # While the result is checked, too: then it has no grade.
+    begin()
+    window.until(lambda: "Checking the result" in said(), "the checks", 60.0)
+    reached = motion()
+    assert hand.click("BrainShiftAlignStop") and not is_running()
+    assert said().startswith("Stopped after ") and "was not checked" in said(), said()
+    assert motion() == reached != before and not warned(), (motion(), warned())
+    window.action("Undo")
+    assert motion() == before, motion()
     # And before the first step.
     undo = undo_labels()
     assert hand.click("BrainShiftAlign") and hand.click("BrainShiftAlignStop")
