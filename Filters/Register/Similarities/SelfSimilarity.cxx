@@ -273,8 +273,8 @@ void thinOut(LevelSamples& samples)
   samples.findStretches();
 }
 
-// Mean squared difference of the numbers of both volumes, added up over 12. With two images, samples
-// count by their importance.
+// Mean squared difference of the numbers of both volumes, added up over 12. With two images,
+// samples count by their importance.
 template <int Images, bool IsThin>
 class SelfSimilarity : public Comparison
 {
