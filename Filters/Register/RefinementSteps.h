@@ -93,8 +93,8 @@ struct RefinementState
   void moveTo(const RigidPosition& position);
 
   /**
-   * The start, moved rigidly about a position (mm, world): up to 6 mm, by up to 6 degrees, or as far
-   * as `farthest`. Number 0 is the start itself; others are random, the same for the same number.
+   * The start, moved rigidly about a position (mm, world) by up to `farthest` mm and degrees.
+   * Number 0 is the start itself; others are random, the same for the same number.
    */
   RigidPosition startNear(const glm::dvec3& middle, int number, double farthest = 6.0) const;
 

@@ -5,9 +5,9 @@
 /// What was compared is cut in two along each axis, and each half is registered rigidly from the
 /// result. Halves of a right result end near each other. Halves of a wrong result do not, because
 /// chance made it. Another metric registers all of it rigidly from the result: a wrong result is a
-/// minimum of one metric only. By ultrasound the volume is also registered from some places near the
-/// result: a right result costs clearly less than any other place where such a search ends; a wrong
-/// one is a minimum among many.
+/// minimum of one metric only. By ultrasound the volume is also registered from some places near
+/// the result: a right result costs clearly less than any other place where such a search ends; a
+/// wrong one is a minimum among many.
 #ifndef BrainShift_ResultCheck_h
 #define BrainShift_ResultCheck_h
 

@@ -203,13 +203,12 @@ float forceOf(
 
 // The numbers of each point of a volume; with `Images` 2, also those of its gradient's length.
 template <int Images>
-std::vector<float> numbersOf(Volume volume)
+std::vector<float> numbersOf(const Volume& volume)
 {
   std::vector<float> numbers = selfSimilarity(volume);
   if constexpr (Images == 2)
   {
-    volume.values = gradientLength(volume);
-    const std::vector<float> more = selfSimilarity(volume);
+    const std::vector<float> more = selfSimilarity({ volume.grid, gradientLength(volume) });
     std::vector<float> both(2 * numbers.size());
     const std::size_t points = volume.values.size();
     for (std::size_t i = 0; i < points; ++i)
@@ -273,8 +272,8 @@ void thinOut(LevelSamples& samples)
   samples.findStretches();
 }
 
-// Mean squared difference of the numbers of both volumes, added up over 12. With two images, samples
-// count by their importance.
+// Mean squared difference of the numbers of both volumes, added up over 12. With two images,
+// samples count by their importance.
 template <int Images, bool IsThin>
 class SelfSimilarity : public Comparison
 {
@@ -294,7 +293,7 @@ public:
   {
     if (this->Reference.empty())
     {
-      this->Reference = numbersOf<Images>(std::move(this->Level.reference));
+      this->Reference = numbersOf<Images>(this->Level.reference);
     }
     else if (this->Rest.empty())
     {
