@@ -348,7 +348,7 @@ def a_pull_follows_it():
     assert 1.0 < way.max() < 15.0, way  # from where the refinement put it, not from rest
     pull = numpy.array(list(fit.Pulls)[:7])
     with window.unrecorded():
-        alone = simple.FreeFormDeformation(Input=simple.FindSource("rest"), Lattice=before)
+        alone = simple.FreeFormDeformation(Input=deformation().Input, Lattice=before)
         was = brainshift.deformed_from_rest(alone, [pull[:3]])[0]
         simple.Delete(alone)
         simple.SetActiveSource(deformation())
