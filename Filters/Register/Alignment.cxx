@@ -3,6 +3,7 @@
 
 #include "Common/Parallel.h"
 #include "Filters/Deformation/PointMap.h"
+#include "Filters/Register/Starts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -143,6 +144,8 @@ namespace
 constexpr int Pieces = 8;          // of the samples; each has a histogram of its own
 constexpr double Tolerance = 0.01; // of the level's spacing, for the minimum on a line
 constexpr double Converged = 1e-4; // fraction of the information that a round must gain
+constexpr double FarthestStartMm = 30.0;
+constexpr double FarthestStartDegrees = 30.0;
 
 // The volume for each level, from coarse to fine. A coarser one is made from the next finer one.
 std::vector<Volume> pyramid(const Volume& volume, const std::vector<double>& levelsMm)
@@ -207,15 +210,15 @@ struct NearestVoxel
   GridFromWorld inMask;
 };
 
-// Takes the masks of what a reference lacks that have voxels.
-std::vector<Mask> missingOf(RegisteredPair& pair)
+// The masks of what a reference lacks that have voxels.
+std::vector<Mask> missingOf(const RegisteredPair& pair)
 {
   std::vector<Mask> found;
-  for (Mask* mask : { &pair.cavity, &pair.referenceUnknown })
+  for (const Mask* mask : { &pair.cavity, &pair.referenceUnknown })
   {
     if (!mask->inside.empty())
     {
-      found.push_back(std::move(*mask));
+      found.push_back(*mask);
     }
   }
   return found;
@@ -236,7 +239,8 @@ double scattered(std::uint32_t index, std::uint32_t salt)
 
 const double Alignment::LeastOverlap = 0.25;
 
-Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSettings& settings)
+Alignment::Alignment(
+  const RegisteredPair& pair, const Lattice* bent, const AlignmentSettings& settings)
   : Settings(settings)
   , Missing(missingOf(pair))
   , References(pyramid(pair.reference, settings.levelsMm))
@@ -352,7 +356,7 @@ void Alignment::prepareLevel()
   this->BestGain = 0.0;
   this->Loss = this->loss(this->Best);
   const double start = this->loss({});
-  if (start < this->Loss) // a coarser level went astray
+  if (this->Progress.level > 0 && start < this->Loss) // the coarser level went astray
   {
     this->Best = {};
     this->Loss = start;
@@ -417,8 +421,37 @@ void Alignment::endRound()
   }
 }
 
+// On the coarsest level. False: there is none left, and the best result of all goes on.
+bool Alignment::takeNextStart()
+{
+  if (this->Start == 0 || this->Loss < this->BestStartLoss)
+  {
+    this->BestStart = this->Best;
+    this->BestStartLoss = this->Loss;
+  }
+  if (++this->Start >= std::min(this->Settings.starts, MostStarts))
+  {
+    this->Best = this->BestStart;
+    this->Loss = this->BestStartLoss;
+    this->Progress.information = -this->loss(this->Best, &this->Progress.overlap);
+    return false;
+  }
+  const StartMotion motion = startMotion(this->Start, FarthestStartMm, FarthestStartDegrees);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Best[axis] = motion.shift[axis];
+    this->Best[3 + axis] = motion.rotation[axis] * this->RadiusMm;
+  }
+  this->IsPrepared = false;
+  return true;
+}
+
 void Alignment::finishLevel()
 {
+  if (this->Progress.level == 0 && this->takeNextStart())
+  {
+    return;
+  }
   if (this->Progress.level + 1 < static_cast<int>(this->Settings.levelsMm.size()))
   {
     ++this->Progress.level;
@@ -459,8 +492,12 @@ const AlignmentProgress& Alignment::step()
 void Alignment::reportDone()
 {
   const double levels = static_cast<double>(this->Settings.levelsMm.size());
-  const double ofLevel =
+  double ofLevel =
     this->IsPrepared ? static_cast<double>(this->Rounds) / this->Settings.mostRounds : 0.0;
+  if (this->Progress.level == 0)
+  {
+    ofLevel = (this->Start + ofLevel) / std::max(1, this->Settings.starts);
+  }
   this->Progress.done = this->Progress.isFinished ? 1.0 : (this->Progress.level + ofLevel) / levels;
 }
 

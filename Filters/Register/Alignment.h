@@ -73,6 +73,7 @@ struct AlignmentSettings
   std::vector<double> levelsMm{ 8.0, 4.0, 2.0 }; ///< spacing of the samples, coarse to fine
   std::size_t mostSamples = 80000;               ///< on each level
   int mostRounds = 8;                            ///< through all directions, on each level
+  int starts = 1; ///< positions from which the coarsest level searches; 1 to MostStarts (Starts.h)
 };
 
 /** The figures after a step. */
@@ -97,7 +98,8 @@ public:
    * @param pair   both in their present positions
    * @param bent   the deformation of the volume; null: none
    */
-  Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSettings& settings = {});
+  Alignment(
+    const RegisteredPair& pair, const Lattice* bent, const AlignmentSettings& settings = {});
 
   /** Searches one line. Nothing once it is finished. */
   const AlignmentProgress& step();
@@ -132,6 +134,7 @@ private:
   double searchLine(const Parameters& direction);
   void endRound();
   void finishLevel();
+  bool takeNextStart();
   void reportDone();
 
   AlignmentSettings Settings;
@@ -144,6 +147,9 @@ private:
   bool IsPrepared = false;
   std::array<Parameters, 6> Directions{};
   Parameters Best{};
+  int Start = 0;          // of the coarsest level
+  Parameters BestStart{}; // the result with the least loss of the starts so far
+  double BestStartLoss = 0.0;
   Parameters RoundStart{};
   double Loss = 0.0;
   double RoundStartLoss = 0.0;

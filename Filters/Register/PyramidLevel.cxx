@@ -2,6 +2,7 @@
 #include "Filters/Register/PyramidLevel.h"
 
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -207,6 +208,25 @@ double spacingOf(const RefinementLevel& level, const Grid& rest, double tissueFr
   return spacingMm;
 }
 
+// The centre of the voxels that are inside (mm, world); that of the grid if there are none.
+glm::dvec3 middleOf(const Mask& mask)
+{
+  glm::dvec3 sum(0.0);
+  double count = 0.0;
+  for (std::size_t i = 0; i < mask.inside.size(); ++i)
+  {
+    if (mask.inside[i])
+    {
+      const int row = static_cast<int>(i) / mask.grid.dimensions.x;
+      sum += glm::dvec3(static_cast<int>(i) % mask.grid.dimensions.x, row % mask.grid.dimensions.y,
+        row / mask.grid.dimensions.y);
+      count += 1.0;
+    }
+  }
+  return mask.grid.worldFromGrid(
+    count > 0.0 ? sum / count : 0.5 * glm::dvec3(mask.grid.dimensions - 1));
+}
+
 double tissueFractionOf(const std::vector<float>& values)
 {
   const Range range = rangeOf(values);
@@ -220,6 +240,39 @@ double boxVolume(const Grid& grid)
   const glm::dvec3 sides = grid.spacing * glm::dvec3(grid.dimensions - 1);
   return sides.x * sides.y * sides.z;
 }
+
+// The reference on a grid, smoothly continued beyond its fan: a mean of what lies inside, by a
+// Gaussian as for any volume, then by boxes as far as descriptors reach.
+Volume filledAround(const Volume& reference, const Mask& fan, double spacingMm, const Grid& to)
+{
+  Volume inside = weightsOf(reference.grid, { nullptr, &fan, nullptr }, {});
+  Volume values = reference;
+  for (std::size_t i = 0; i < values.values.size(); ++i)
+  {
+    values.values[i] *= inside.values[i];
+  }
+  values = resampled(smoothed(values, spacingMm), to);
+  inside = resampled(smoothed(inside, spacingMm), to);
+  constexpr float Known = 0.25f; // of the weight: the mean is of what lies nearby
+  Volume result = values;
+  std::vector<char> open(result.values.size(), 1);
+  for (const int radius : { 0, 1, 2, 4, 8 })
+  {
+    Volume sums = values;
+    Volume weights = inside;
+    boxSum(sums, glm::ivec3(radius));
+    boxSum(weights, glm::ivec3(radius));
+    for (std::size_t i = 0; i < open.size(); ++i)
+    {
+      if (open[i] && weights.values[i] > Known)
+      {
+        result.values[i] = sums.values[i] / weights.values[i];
+        open[i] = 0;
+      }
+    }
+  }
+  return result;
+}
 }
 
 ComparedRegion::ComparedRegion(const RegisteredPair& pair, const RefinementPlan& plan)
@@ -227,6 +280,7 @@ ComparedRegion::ComparedRegion(const RegisteredPair& pair, const RefinementPlan&
   , TissueFraction(tissueFractionOf(pair.rest.values))
   , Stiffness(plan.stiffness)
   , Limits(plan.fan)
+  , Middle(Rest.worldFromGrid(0.5 * glm::dvec3(Rest.dimensions - 1)))
 {
 }
 
@@ -237,6 +291,7 @@ void ComparedRegion::find(const Volume& reference, const Grid& lattice)
     std::count(this->Fan.inside.begin(), this->Fan.inside.end(), static_cast<char>(1)));
   this->BoxMm3 = boxVolume(lattice);
   this->FanMm3 = std::min(pointVolume(this->Fan.grid) * voxels, this->BoxMm3);
+  this->Middle = middleOf(this->Fan);
 }
 
 double ComparedRegion::spacingMm(const RefinementLevel& level) const
@@ -311,23 +366,37 @@ void PyramidLevel::readRest()
 
 void PyramidLevel::readReference()
 {
-  this->Volumes.reference =
-    resampled(smoothed(this->Pair.reference, this->SpacingMm), this->Samples);
+  this->Volumes.reference = this->Fan
+    ? filledAround(this->Pair.reference, *this->Fan, this->SpacingMm, this->Samples)
+    : resampled(smoothed(this->Pair.reference, this->SpacingMm), this->Samples);
+}
+
+// Beyond a fan the reference goes on smoothly, and beyond a mask the volume has its tissue. So only
+// what is missing counts with all of a descriptor's support if the reference is ultrasound.
+Volume PyramidLevel::weights(const Region& seen, const Region& known) const
+{
+  if (!this->Fan)
+  {
+    return weightsOf(
+      this->Samples, { seen.grid, seen.inside, known.outside }, this->Compares->support);
+  }
+  Volume result = weightsOf(this->Samples, seen, { 1, 1 });
+  const Volume whole = weightsOf(this->Samples, known, this->Compares->support);
+  std::transform(result.values.begin(), result.values.end(), whole.values.begin(),
+    result.values.begin(), std::multiplies<>());
+  return result;
 }
 
 void PyramidLevel::weighRest()
 {
-  this->Volumes.restWeights = weightsOf(this->Samples,
-    { nullptr, orNull(this->Pair.inside), { orNull(this->Pair.restUnknown) } },
-    this->Compares->support);
+  this->Volumes.restWeights = this->weights({ nullptr, orNull(this->Pair.inside), {} },
+    { nullptr, nullptr, { orNull(this->Pair.restUnknown) } });
 }
 
 void PyramidLevel::weighReference()
 {
-  this->Volumes.referenceWeights = weightsOf(this->Samples,
-    { &this->Pair.reference.grid, this->Fan,
-      { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } },
-    this->Compares->support);
+  this->Volumes.referenceWeights = this->weights({ &this->Pair.reference.grid, this->Fan, {} },
+    { nullptr, nullptr, { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } });
 }
 
 void PyramidLevel::makeComparison()

@@ -39,6 +39,9 @@ public:
   /** The voxels inside the fan; null: there is none. */
   const Mask* fan() const { return this->Fan.inside.empty() ? nullptr : &this->Fan; }
 
+  /** The middle of the fan (mm, world), or of the volume. */
+  glm::dvec3 middle() const { return this->Middle; }
+
   double spacingMm(const RefinementLevel& level) const;
 
   /** The samples of a level, without those far from the fan. */
@@ -65,6 +68,7 @@ private:
   double Stiffness;      // of the plan
   std::optional<FanLimits> Limits;
   Mask Fan;
+  glm::dvec3 Middle{ 0.0 };
   double FanMm3 = 0.0; // of the volume's box, at most
   double BoxMm3 = 0.0; // of the lattice
 };
@@ -86,6 +90,9 @@ public:
     return this->Compared->compare(controls);
   }
 
+  /** Compares only samples in the half; once it is prepared. */
+  void restrictTo(const HalfSpace& half) { this->Compared->restrictTo(half); }
+
   const Grid& grid() const { return this->Samples; }
 
   /** Bytes that a level takes beside the volumes themselves. */
@@ -98,6 +105,7 @@ private:
   void weighRest();
   void weighReference();
   void makeComparison();
+  Volume weights(const Region& seen, const Region& known) const;
 
   const RegisteredPair& Pair;
   const Mask* Fan;

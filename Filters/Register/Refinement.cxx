@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Refinement.h"
 
-#include <utility>
+#include <algorithm>
 
 namespace brainshift
 {
@@ -23,10 +23,9 @@ Refinement::Refinement(
 
 const RefinementProgress& Refinement::step()
 {
-  RefinementProgress& progress = this->State.progress;
-  if (progress.isFinished)
+  if (this->State.progress.isFinished)
   {
-    return progress;
+    return this->State.progress;
   }
   if (!this->Region.isFound())
   {
@@ -45,13 +44,8 @@ const RefinementProgress& Refinement::step()
   {
     this->takeStep();
   }
-  const double levels = static_cast<double>(this->Settings.plan.levels.size());
-  progress.done = progress.isFinished
-    ? 1.0
-    : (this->Index +
-        static_cast<double>(this->StepsOfLevel) / this->Settings.mostStepsOf(this->level())) /
-      levels;
-  return progress;
+  this->reportDone();
+  return this->State.progress;
 }
 
 void Refinement::prepareLevel()
@@ -77,10 +71,41 @@ void Refinement::prepareLevel()
 
 void Refinement::beginLevel()
 {
+  if (!this->AtStart)
+  {
+    this->AtStart =
+      std::make_unique<CostAndForces>(this->Level->compare(this->State.startControls));
+  }
+  if (this->Index == 0 && this->Found.empty() && this->Open.empty())
+  {
+    this->findStarts();
+  }
+  this->State.setStiffness(this->level().stiffness * this->Region.stiffness());
   this->Step = makeStep(this->Settings.plan, this->level(), this->Level->grid());
   this->LastUsed = this->Index;
-  this->State.beginLevel(std::move(*this->Here), this->Level->compare(this->State.startControls));
+  this->State.beginLevel(std::move(*this->Here), *this->AtStart);
+  if (!this->level().isRigid)
+  {
+    this->State.returnIfWorse(*this->AtStart);
+  }
   this->reportOverlap();
+}
+
+void Refinement::findStarts()
+{
+  const int starts = this->level().isRigid ? std::clamp(this->Settings.starts, 1, MostStarts) : 1;
+  for (int number = starts - 1; number > 0; --number)
+  {
+    this->Open.push_back(this->State.startNear(this->Region.middle(), number));
+  }
+}
+
+void Refinement::begin(const RigidPosition& position)
+{
+  this->State.moveTo(position);
+  this->Step = nullptr;
+  this->Here = nullptr;
+  this->StepsOfLevel = 0;
 }
 
 void Refinement::takeStep()
@@ -96,7 +121,7 @@ void Refinement::takeStep()
   if (outcome == StepOutcome::Settled ||
     this->StepsOfLevel >= this->Settings.mostStepsOf(this->level()))
   {
-    this->finishLevel();
+    this->finishPosition();
   }
 }
 
@@ -109,19 +134,52 @@ void Refinement::reportOverlap()
   }
 }
 
+void Refinement::reportDone()
+{
+  const double levels = static_cast<double>(this->Settings.plan.levels.size());
+  const double positions = static_cast<double>(this->Found.size() + this->Open.size() + 1);
+  const double part = static_cast<double>(this->Found.size()) +
+    static_cast<double>(this->StepsOfLevel) / this->Settings.mostStepsOf(this->level());
+  this->State.progress.done =
+    this->State.progress.isFinished ? 1.0 : (this->Index + part / positions) / levels;
+}
+
+void Refinement::finishPosition()
+{
+  this->Found.push_back(this->State.position());
+  if (this->Open.empty())
+  {
+    this->finishLevel();
+    return;
+  }
+  const RigidPosition next = this->Open.back();
+  this->Open.pop_back();
+  this->begin(next);
+}
+
 void Refinement::finishLevel()
 {
   const std::vector<RefinementLevel>& levels = this->Settings.plan.levels;
   const std::size_t next = static_cast<std::size_t>(this->Index) + 1;
-  this->Step = nullptr;
-  this->Here = nullptr;
-  this->StepsOfLevel = 0;
+  if (this->Found.size() > 1)
+  {
+    std::sort(this->Found.begin(), this->Found.end(),
+      [](const RigidPosition& a, const RigidPosition& b) { return a.cost < b.cost; });
+    this->Open.assign(this->Found.begin() + 1,
+      this->Found.begin() + std::min<std::size_t>(this->level().kept, this->Found.size()));
+    this->begin(this->Found.front());
+  }
+  else
+  {
+    this->begin(this->State.position());
+  }
+  this->Found.clear();
+  this->AtStart = nullptr;
   if (next == levels.size())
   {
     this->State.progress.isFinished = true;
     this->State.progress.level = this->LastUsed;
     this->Level = nullptr;
-    this->Pair = {};
     return;
   }
   if (!this->level().isComparedLike(levels[next])) // else it need not be prepared again

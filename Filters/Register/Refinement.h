@@ -6,13 +6,16 @@
 /// and ends on the finest. The plan of a similarity (Similarity.h) lists the levels. A step is a
 /// Gauss-Newton step of the control points, at most 1.5 points of its level long and shortened
 /// until the energy falls (RefinementSteps.h). The energy is the cost plus the stiffness
-/// (Stiffness.h) of the change since the start; a rigid motion costs no energy. A new level starts
-/// from the better of the last result and the start, so that the result never has more energy than
-/// the start.
+/// (Stiffness.h) of the change since the start; a rigid motion costs no energy. A level that bends
+/// starts from the better of the last result and the start, so that the result never has more
+/// energy than the start. Levels that move rigidly may search from several starts; the results with
+/// the least cost go on.
 #ifndef BrainShift_Refinement_h
 #define BrainShift_Refinement_h
 
 #include "Filters/Register/RefinementSteps.h"
+
+#include <utility>
 
 namespace brainshift
 {
@@ -35,6 +38,9 @@ public:
   /** The lattice after the last step. */
   const Lattice& lattice() const { return this->State.bent; }
 
+  /** Hands the volumes back, once it is finished. */
+  RegisteredPair takePair() { return std::move(this->Pair); }
+
   /** Bytes that a refinement takes beside the volumes themselves. */
   static double bytes(const Grid& rest, const Grid& reference, const Grid& lattice,
     const RefinementSettings& settings);
@@ -44,8 +50,12 @@ private:
   void prepareLevel();
   void beginLevel();
   void takeStep();
+  void finishPosition();
   void finishLevel();
+  void findStarts();
+  void begin(const RigidPosition& position);
   void reportOverlap();
+  void reportDone();
 
   RegisteredPair Pair;
   RefinementSettings Settings;
@@ -55,7 +65,10 @@ private:
   int LastUsed = 0; // the last level that was not left out
   int StepsOfLevel = 0;
   std::unique_ptr<PyramidLevel> Level;
-  std::unique_ptr<CostAndForces> Here; // where the level would begin
+  std::unique_ptr<CostAndForces> AtStart; // on this level
+  std::unique_ptr<CostAndForces> Here;    // where the level would begin
+  std::vector<RigidPosition> Open;        // from which this level is still to begin
+  std::vector<RigidPosition> Found;       // on this level
   std::unique_ptr<RefinementStep> Step;
 };
 }

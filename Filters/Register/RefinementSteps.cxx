@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/RefinementSteps.h"
 
+#include "Filters/Fit/RigidPose.h"
+
 #include <Eigen/Cholesky>
 
 #include <utility>
@@ -19,6 +21,15 @@ std::vector<glm::vec3> rotated(const std::vector<glm::vec3>& vectors, const glm:
     result.push_back(rotation * vector);
   }
   return result;
+}
+
+// The place of a control point, mm along the grid's axes from the first one.
+glm::dvec3 placeOf(const Grid& lattice, std::size_t number)
+{
+  const int row = static_cast<int>(number) / lattice.dimensions.x;
+  const glm::ivec3 index(static_cast<int>(number) % lattice.dimensions.x,
+    row % lattice.dimensions.y, row / lattice.dimensions.y);
+  return lattice.spacing * glm::dvec3(index);
 }
 
 Controls controlsOf(const Lattice& lattice)
@@ -104,21 +115,52 @@ void RefinementState::take(const Lattice& lattice, CostAndForces compared, doubl
   this->progress.cost = this->known.cost;
 }
 
-void RefinementState::beginLevel(CostAndForces here, CostAndForces atStart)
+void RefinementState::beginLevel(CostAndForces here, const CostAndForces& atStart)
 {
   this->progress.costAtStart = atStart.cost;
   this->samplesAtStart = atStart.samples;
   const double energyHere = this->energyOf(this->controls, here);
-  if (energyHere > atStart.cost)
+  this->take(this->bent, std::move(here), energyHere);
+}
+
+void RefinementState::returnIfWorse(const CostAndForces& atStart)
+{
+  if (this->energy > atStart.cost)
   {
-    const double energyAtStart = atStart.cost;
     this->unbent = this->startControls;
-    this->take(this->start, std::move(atStart), energyAtStart);
+    this->take(this->start, atStart, atStart.cost);
   }
-  else
+}
+
+void RefinementState::moveTo(const RigidPosition& position)
+{
+  this->unbent = position.unbent;
+  this->controls = position.controls;
+  this->bent = this->latticeOf(position.controls);
+}
+
+RigidPosition RefinementState::startNear(
+  const glm::dvec3& middle, int number, double farthest) const
+{
+  RigidPosition result{ this->startControls, this->startControls };
+  const StartMotion motion = startMotion(number, farthest, farthest);
+  if (number == 0)
   {
-    this->take(this->bent, std::move(here), energyHere);
+    return result;
   }
+  const glm::dmat3 rotation = rotationFrom(motion.rotation);
+  const Grid& grid = this->start.grid;
+  const glm::dvec3 about = glm::transpose(grid.direction) * (middle - grid.origin);
+  Controls step(result.controls.size());
+  for (std::size_t i = 0; i < step.size(); ++i)
+  {
+    const glm::dvec3 arm = placeOf(grid, i) + glm::dvec3(this->startControls[i]) - about;
+    step[i] = glm::vec3(motion.shift + rotation * arm - arm);
+  }
+  // Only the edge of a mask can fold.
+  result.controls = this->candidateAt(step, 1.0).controls;
+  result.unbent = result.controls;
+  return result;
 }
 
 namespace
@@ -195,10 +237,7 @@ std::vector<glm::dvec3> armsOf(
   double weights = 0.0;
   for (std::size_t i = 0; i < arms.size(); ++i)
   {
-    const int row = static_cast<int>(i) / lattice.dimensions.x;
-    const glm::ivec3 index(static_cast<int>(i) % lattice.dimensions.x, row % lattice.dimensions.y,
-      row / lattice.dimensions.y);
-    arms[i] = lattice.spacing * glm::dvec3(index) + glm::dvec3(displacements[i]);
+    arms[i] = placeOf(lattice, i) + glm::dvec3(displacements[i]);
     const double weight = weightOf(&forces[i * ForceNumbers]);
     middle += weight * arms[i];
     weights += weight;
@@ -336,13 +375,14 @@ StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
 std::unique_ptr<RefinementStep> makeStep(
   const RefinementPlan& plan, const RefinementLevel& level, const Grid& samples)
 {
-  constexpr double LongestPoints = 1.5;
+  constexpr double LongestBend = 1.5; // points
+  constexpr double LongestMove = 3.0; // longer strides of a rigid motion pass over small minima
   const glm::dvec3 spacing = samples.spacing;
-  const double longestMm = LongestPoints * std::max(spacing.x, std::max(spacing.y, spacing.z));
+  const double pointMm = std::max(spacing.x, std::max(spacing.y, spacing.z));
   if (level.isRigid)
   {
-    return std::make_unique<RigidMove>(plan.rigidGrowth, longestMm, plan.converged);
+    return std::make_unique<RigidMove>(plan.rigidGrowth, LongestMove * pointMm, plan.converged);
   }
-  return std::make_unique<BendStep>(plan.bendGrowth, longestMm, plan.converged);
+  return std::make_unique<BendStep>(plan.bendGrowth, LongestBend * pointMm, plan.converged);
 }
 }

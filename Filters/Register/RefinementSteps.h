@@ -11,6 +11,7 @@
 
 #include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Register/PyramidLevel.h"
+#include "Filters/Register/Starts.h"
 #include "Filters/Register/Stiffness.h"
 
 namespace brainshift
@@ -24,6 +25,7 @@ struct RefinementSettings
   int mostSteps = 15;     ///< on each level where it bends
   int samples = 4;        ///< nodes between two control points, 0 to 16
   bool guards = true;     ///< whether the fold guard shortens steps
+  int starts = 1;         ///< positions from which rigid levels search; 1 to MostStarts
 
   /** Most steps of a level. */
   int mostStepsOf(const RefinementLevel& level) const
@@ -51,6 +53,14 @@ struct RefinementProgress
 /** Displacements of the control points: mm along the grid's axes. */
 using Controls = std::vector<glm::vec3>;
 
+/** A result of rigid levels, or where they begin. */
+struct RigidPosition
+{
+  Controls controls;
+  Controls unbent;
+  double cost = 0.0;
+};
+
 struct RefinementState
 {
   RefinementState(const Lattice& from, const RefinementSettings& settings);
@@ -72,8 +82,21 @@ struct RefinementState
   /** Makes the volume stiffer. */
   void stiffen(double factor);
 
-  /** Begins a level with the better of the last result and the start. */
-  void beginLevel(CostAndForces here, CostAndForces atStart);
+  /** Begins a level where it is. */
+  void beginLevel(CostAndForces here, const CostAndForces& atStart);
+
+  /** Goes back to the start if the energy is less there. */
+  void returnIfWorse(const CostAndForces& atStart);
+
+  RigidPosition position() const { return { this->controls, this->unbent, this->known.cost }; }
+
+  void moveTo(const RigidPosition& position);
+
+  /**
+   * The start, moved rigidly about a position (mm, world) by up to `farthest` mm and degrees.
+   * Number 0 is the start itself; others are random, the same for the same number.
+   */
+  RigidPosition startNear(const glm::dvec3& middle, int number, double farthest = 6.0) const;
 
   /** The displacements that have elastic energy. */
   Controls bendOf(const Controls& at) const;

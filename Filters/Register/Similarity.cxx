@@ -68,6 +68,30 @@ void LevelSamples::findStretches()
   this->possible = std::accumulate(this->weights.begin(), this->weights.end(), 0.0);
 }
 
+void LevelSamples::restrictTo(const HalfSpace& half)
+{
+  if (this->Unrestricted.empty())
+  {
+    this->Unrestricted = this->weights;
+  }
+  const Grid& grid = this->rows.samples();
+  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < grid.dimensions.y; ++j)
+      {
+        for (int i = 0; i < grid.dimensions.x; ++i)
+        {
+          const std::size_t number = grid.offset(i, j, k);
+          this->weights[number] =
+            half.holds(grid.worldFromGrid({ i, j, k })) ? this->Unrestricted[number] : 0.0f;
+        }
+      }
+    }
+  });
+  this->findStretches();
+}
+
 std::vector<float> LevelSamples::read(const std::vector<float>& values, int numbers) const
 {
   const Grid& grid = this->rows.samples();

@@ -38,6 +38,18 @@ struct CostAndForces
   ControlForces forces;
 };
 
+/** The positions on one side of a plane (mm, world). */
+struct HalfSpace
+{
+  glm::dvec3 normal{ 0.0 }; ///< of length 1; 0: everywhere
+  double offsetMm = 0.0;    ///< dot(normal, position) is at least this
+
+  bool holds(const glm::dvec3& position) const
+  {
+    return glm::dot(this->normal, position) >= this->offsetMm;
+  }
+};
+
 /** The samples of a level: their positions, their weights, and how freely they move. */
 struct LevelSamples
 {
@@ -61,6 +73,9 @@ struct LevelSamples
 
   /** Finds `stretches` and `possible` from the weights. */
   void findStretches();
+
+  /** Counts only samples whose position at rest is in the half. A later call replaces it. */
+  void restrictTo(const HalfSpace& half);
 
   /** A sample that counts and has a partner in the reference. */
   struct Compared
@@ -101,6 +116,9 @@ struct LevelSamples
 
   /** The numbers of a volume at the samples; `numbers` of them for each point, interleaved. */
   std::vector<float> read(const std::vector<float>& values, int numbers) const;
+
+private:
+  std::vector<float> Unrestricted; // weights; empty: restrictTo was not called
 };
 
 /** Divides forces by the number of samples, so that levels compare. */
@@ -118,6 +136,9 @@ public:
 
   /** Compares at displacements of the control points, mm along the grid's axes. */
   virtual CostAndForces compare(const std::vector<glm::vec3>& displacements) = 0;
+
+  /** Compares only samples whose position at rest is in the half; once it is prepared. */
+  virtual void restrictTo(const HalfSpace& half) = 0;
 };
 
 /** A method of comparison. */
@@ -149,6 +170,8 @@ struct RefinementLevel
   double mostCost = 1.0;  ///< a level that starts with more is skipped: it might mislead
   bool isRigid = false;   ///< the volume moves as a whole, in up to three times as many steps
   bool isCapped = false;  ///< the spacing grows until there are at most 0.95 million samples
+  int kept = 1; ///< of the positions found from several starts: the next level begins there
+  double stiffness = 1.0; ///< factor on the stiffness of the plan
 
   /** Whether two levels have the same comparison. */
   bool isComparedLike(const RefinementLevel& other) const
@@ -165,6 +188,20 @@ struct FanLimits
   double mostSamples = 0.25e6; ///< inside the fan, so that a step stays short
 };
 
+/** How a result is checked (ResultCheck.h), and the largest figures of a good one. */
+struct CheckPlan
+{
+  RefinementLevel halves; ///< rigid: it registers halves of what was compared
+  RefinementLevel other;  ///< rigid: another metric, which registers all of it
+  /**
+   * Least fraction by which any other place that a search nearby finds costs more, by the metric of
+   * the halves; 0: no search.
+   */
+  double rivalGain = 0.0;
+  double halvesMm = 3.0; ///< mean distance of two halves
+  double otherMm = 1.0;  ///< mean distance by which the other metric moves the result
+};
+
 /** The levels and factors of a refinement. */
 struct RefinementPlan
 {
@@ -173,7 +210,8 @@ struct RefinementPlan
   std::optional<FanLimits> fan;        ///< set: the reference is ultrasound inside a fan
   double converged = 1e-4;             ///< a level ends with a step that gains a smaller fraction
   StepGrowth bendGrowth;
-  StepGrowth rigidGrowth{ 4.0, 16.0, 2.0 };
+  StepGrowth rigidGrowth{ 8.0, 64.0, 2.0 };
+  CheckPlan check;
 };
 
 struct Similarity

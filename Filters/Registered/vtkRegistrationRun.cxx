@@ -8,6 +8,7 @@
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Register/Alignment.h"
 #include "Filters/Register/Refinement.h"
+#include "Filters/Register/Trust.h"
 #include "Filters/Registered/RegisteredSource.h"
 
 #include "vtkAlgorithm.h"
@@ -28,6 +29,15 @@ struct vtkRegistrationRun::Running
   std::vector<glm::vec3> Start;      // displacements of the control points, mm, world axes
   std::string Outside;               // what does not count, in words
   glm::dvec3 ReferenceMiddle{ 0.0 }; // mm, world, where the alignment begins
+
+  RefinementPlan Plan; // of the checks, too
+  RegisteredPair Pair; // of an alignment
+  Lattice Bent;        // the deformation of an alignment
+  std::unique_ptr<Verification> Checks;
+
+  void BeginChecks();
+  bool IsFinished() const;
+  double Done() const;
 };
 
 vtkStandardNewMacro(vtkRegistrationRun);
@@ -39,6 +49,14 @@ namespace
 constexpr double FarthestShiftMm = 24.0;
 constexpr double FarthestDegrees = 17.0;
 
+constexpr double RegistrationPart = 0.8; // of the progress; the rest are the checks
+
+// Limits of the checks of an alignment, mm. Tissue may be bent, so that halves differ more than
+// after a refinement.
+constexpr double AlignHalvesMm = 8.0;
+constexpr double AlignOtherMm = 3.0;
+constexpr int StillSides = 8; // control points of a lattice that bends nothing
+
 std::string rounded(double value, int digits = 0)
 {
   std::ostringstream text;
@@ -46,16 +64,42 @@ std::string rounded(double value, int digits = 0)
   return text.str();
 }
 
-std::string percent(double fraction)
-{
-  return rounded(100.0 * fraction) + " %";
-}
-
 void fill(vtkDoubleArray* array, const std::vector<double>& values)
 {
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
 }
+}
+
+void vtkRegistrationRun::Running::BeginChecks()
+{
+  if (this->Elastic)
+  {
+    this->Checks = std::make_unique<Verification>(
+      this->Elastic->takePair(), this->Elastic->lattice(), this->Plan);
+    return;
+  }
+  const RigidPose motion = this->Rigid->motion();
+  for (Grid* grid :
+    { &this->Pair.reference.grid, &this->Pair.cavity.grid, &this->Pair.referenceUnknown.grid })
+  {
+    grid->origin = motion.apply(grid->origin);
+    grid->direction = motion.rotation * grid->direction;
+  }
+  this->Checks = std::make_unique<Verification>(std::move(this->Pair), this->Bent, this->Plan);
+}
+
+bool vtkRegistrationRun::Running::IsFinished() const
+{
+  return (this->Rigid && this->Rigid->progress().isFinished) ||
+    (this->Elastic && this->Elastic->progress().isFinished);
+}
+
+double vtkRegistrationRun::Running::Done() const
+{
+  const double done = this->Rigid ? this->Rigid->progress().done : this->Elastic->progress().done;
+  return RegistrationPart * done +
+    (1.0 - RegistrationPart) * (this->Checks ? this->Checks->done() : 0.0);
 }
 
 vtkRegistrationRun::vtkRegistrationRun()
@@ -83,6 +127,16 @@ void vtkRegistrationRun::SetSimilarity(int similarity)
   }
 }
 
+void vtkRegistrationRun::SetStarts(int starts)
+{
+  const int clamped = std::clamp(starts, 1, MostStarts);
+  if (this->Starts != clamped)
+  {
+    this->Starts = clamped;
+    this->Modified();
+  }
+}
+
 void vtkRegistrationRun::SetSource(vtkAlgorithm* source)
 {
   this->Source = source;
@@ -105,6 +159,8 @@ void vtkRegistrationRun::Begin(bool bends)
   const brainshift::Similarity& similarity = similarities()[this->Similarity];
   settings.plan = similarity.plan;
   settings.stiffness = this->Stiffness;
+  this->Internal->Plan = similarity.plan;
+  settings.starts = this->Starts;
   this->OverlapOf = bends ? similarity.overlapOf : "the volume";
   const double voxels =
     sizeof(float) * static_cast<double>(grids.rest.count() + grids.reference.count());
@@ -127,9 +183,17 @@ void vtkRegistrationRun::Begin(bool bends)
     return;
   }
   this->Internal->ReferenceMiddle = middleOf(grids.reference);
-  const Lattice bent = source.bent ? effectiveLattice(*source.bent) : Lattice{};
-  this->Internal->Rigid =
-    std::make_unique<Alignment>(std::move(source.pair), source.bent ? &bent : nullptr);
+  this->Internal->Plan = similarities().front().plan;
+  this->Internal->Plan.check.halvesMm = AlignHalvesMm;
+  this->Internal->Plan.check.otherMm = AlignOtherMm;
+  this->Internal->Bent = source.bent
+    ? effectiveLattice(*source.bent)
+    : makeLattice(withDimensions(grids.rest, glm::ivec3(StillSides)), KernelCatmullRom);
+  this->Internal->Pair = std::move(source.pair);
+  AlignmentSettings search;
+  search.starts = this->Starts;
+  this->Internal->Rigid = std::make_unique<Alignment>(
+    this->Internal->Pair, source.bent ? &this->Internal->Bent : nullptr, search);
 }
 
 void vtkRegistrationRun::BeginGuarded(bool bends)
@@ -154,14 +218,7 @@ void vtkRegistrationRun::BeginRefinement()
 void vtkRegistrationRun::Step()
 {
   const bool isDone = guarded(this, false, [this] {
-    if (this->Internal->Rigid)
-    {
-      this->Internal->Rigid->step();
-    }
-    if (this->Internal->Elastic)
-    {
-      this->Internal->Elastic->step();
-    }
+    this->Advance();
     this->Report();
     return true;
   });
@@ -172,17 +229,84 @@ void vtkRegistrationRun::Step()
   }
 }
 
+void vtkRegistrationRun::Advance()
+{
+  Running& run = *this->Internal;
+  if (run.Checks)
+  {
+    run.Checks->step();
+    return;
+  }
+  if (run.Rigid)
+  {
+    run.Rigid->step();
+  }
+  if (run.Elastic)
+  {
+    run.Elastic->step();
+  }
+  this->Report();
+  if (run.IsFinished() && this->Refusal.empty())
+  {
+    run.BeginChecks();
+  }
+}
+
+void vtkRegistrationRun::Warn(const std::string& sentence)
+{
+  this->Warning += (this->Warning.empty() ? "" : "\n") + sentence;
+}
+
 void vtkRegistrationRun::Report()
 {
   this->Refusal = {};
   this->Warning = {};
+  this->Trust = nameOf(brainshift::Trust::Unchecked);
+  if (!this->Internal->Rigid && !this->Internal->Elastic)
+  {
+    return;
+  }
   if (this->Internal->Rigid)
   {
     this->ReportAlignment();
   }
-  else if (this->Internal->Elastic)
+  else
   {
     this->ReportRefinement();
+  }
+  const bool isRefused = !this->Refusal.empty();
+  const bool isDone = this->Internal->IsFinished() &&
+    (isRefused || (this->Internal->Checks && this->Internal->Checks->isFinished()));
+  this->Done = isDone ? 1.0 : this->Internal->Done();
+  this->Finished = isDone ? 1 : 0;
+  this->Checking = this->Internal->Checks && !isDone ? 1 : 0;
+  if (isDone && !isRefused)
+  {
+    this->ReportChecks();
+  }
+}
+
+void vtkRegistrationRun::ReportChecks()
+{
+  Verdict verdict = this->Internal->Checks->verdict();
+  std::string reasons;
+  for (const std::string& reason : verdict.reasons)
+  {
+    reasons += (reasons.empty() ? "" : " ") + reason;
+  }
+  if (verdict.trust == brainshift::Trust::Failed && this->KeepFailed == 0)
+  {
+    this->Refusal = "The result failed its checks. " + reasons.substr(0, reasons.size() - 1);
+  }
+  // A warning that is known without them makes the result doubtful, too.
+  if (!this->Warning.empty() && verdict.trust == brainshift::Trust::Good)
+  {
+    verdict.trust = brainshift::Trust::Doubtful;
+  }
+  this->Trust = nameOf(verdict.trust);
+  for (const std::string& reason : verdict.reasons)
+  {
+    this->Warn(reason);
   }
 }
 
@@ -190,10 +314,8 @@ void vtkRegistrationRun::ReportAlignment()
 {
   const Alignment& rigid = *this->Internal->Rigid;
   const AlignmentProgress& at = rigid.progress();
-  this->Finished = at.isFinished ? 1 : 0;
   this->Steps = at.steps;
   this->Level = at.level;
-  this->Done = at.done;
   this->Overlap = at.overlap;
   this->Information = at.information;
   this->InformationBefore = at.informationAtStart;
@@ -201,26 +323,24 @@ void vtkRegistrationRun::ReportAlignment()
   this->Rotation = rigid.rotationDegrees();
   if (this->Steps > 0 && this->Overlap < Alignment::LeastOverlap)
   {
-    this->Refusal = percent(this->Overlap) + " of the volume has a partner in the reference" +
-      this->Internal->Outside + "; at least " + percent(Alignment::LeastOverlap) +
-      " must have one. Move the reference closer first";
+    this->Refusal = "Only " + percentText(this->Overlap) +
+      " of the volume has a partner in the reference" + this->Internal->Outside + "; at least " +
+      percentText(Alignment::LeastOverlap) + " must have one. Move the reference closer first";
   }
   if (this->Shift > FarthestShiftMm || this->Rotation > FarthestDegrees)
   {
-    this->Warning = "The reference was moved by " + rounded(this->Shift) + " mm and " +
+    this->Warn("The reference was moved by " + rounded(this->Shift) + " mm and " +
       rounded(this->Rotation) +
       " degrees. Align was tested only for motions of up to 20 mm and 15 degrees. Check the "
-      "position of the reference.";
+      "position of the reference.");
   }
 }
 
 void vtkRegistrationRun::ReportRefinement()
 {
   const RefinementProgress& at = this->Internal->Elastic->progress();
-  this->Finished = at.isFinished ? 1 : 0;
   this->Steps = at.steps;
   this->Level = at.level;
-  this->Done = at.done;
   this->Overlap = at.overlap;
   this->Cost = at.cost;
   this->CostBefore = at.costAtStart;
@@ -242,15 +362,15 @@ void vtkRegistrationRun::ReportRefinement()
   }
   if (this->Cost > this->CostBefore)
   {
-    this->Warning = "The cost is higher than before the refinement: " + rounded(this->Cost, 3) +
-      " instead of " + rounded(this->CostBefore, 3) + "; undo it. ";
+    this->Warn("The cost is higher than before the refinement: " + rounded(this->Cost, 3) +
+      " instead of " + rounded(this->CostBefore, 3) + "; undo it.");
   }
   if (this->Steps > 0 && this->Overlap < Alignment::LeastOverlap)
   {
-    this->Warning += "Only " + percent(this->Overlap) + " of " + this->OverlapOf +
-      " has a partner in the reference; at least " + percent(Alignment::LeastOverlap) + " should. ";
+    this->Warn("Only " + percentText(this->Overlap) + " of " + this->OverlapOf +
+      " has a partner in the reference; at least " + percentText(Alignment::LeastOverlap) +
+      " should.");
   }
-  this->Warning.erase(this->Warning.find_last_not_of(' ') + 1);
 }
 
 vtkDoubleArray* vtkRegistrationRun::GetMotion()
@@ -312,5 +432,7 @@ void vtkRegistrationRun::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Similarity: " << this->Similarity << "\n"
      << indent << "Stiffness: " << this->Stiffness << "\n"
+     << indent << "KeepFailed: " << this->KeepFailed << "\n"
+     << indent << "Starts: " << this->Starts << "\n"
      << indent << "Problem: " << this->Problem << "\n";
 }

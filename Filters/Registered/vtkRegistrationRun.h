@@ -55,14 +55,31 @@ public:
   ///@}
 
   ///@{
+  /** Whether a result that fails its checks is kept; else Refusal has the reason. Default 0. */
+  vtkSetMacro(KeepFailed, int);
+  vtkGetMacro(KeepFailed, int);
+  ///@}
+
+  ///@{
+  /**
+   * Number of positions from which a search begins: the present one, and others near it, always the
+   * same. The result with the least cost is kept. 1 to 64. An alignment and a refinement whose
+   * volume first moves rigidly take note of it. Default 1.
+   */
+  void SetStarts(int starts);
+  vtkGetMacro(Starts, int);
+  ///@}
+
+  ///@{
   /** Begins again, from the present position of the reference or the present deformation. */
   void BeginAlignment();
   void BeginRefinement();
   ///@}
 
   /**
-   * Takes one step; a refinement may try a length of it, or prepare a part of its next level.
-   * Nothing once it is finished, or without a beginning.
+   * Takes one step; a refinement may try a length of it, or prepare a part of its next level. After
+   * the last step it checks the result, a part for each call. Nothing once it is finished, or
+   * without a beginning.
    */
   void Step();
 
@@ -84,16 +101,24 @@ public:
 
   /**
    * The reason to discard the result: a sentence without a full stop. Empty if there is none. An
-   * alignment needs a partner in the reference for 25 % of the volume, a refinement for any of it.
+   * alignment needs a partner in the reference for 25 % of the volume, a refinement for any of it;
+   * and a result must not fail its checks, unless KeepFailed is on.
    */
   const char* GetRefusal() const { return this->Refusal.c_str(); }
 
-  /** Warnings about the result: sentences. Empty if there are none. */
+  /** Warnings about the result: sentences, one in each line. Empty if there are none. */
   const char* GetWarning() const { return this->Warning.c_str(); }
+
+  /**
+   * How far the result may be trusted, by checks of itself: "good", "doubtful" or "failed"; and
+   * "unchecked" until they have ended, or if too little was compared.
+   */
+  const char* GetTrust() const { return this->Trust.c_str(); }
 
   ///@{
   /** After the last step, of both kinds of run. */
   vtkGetMacro(Finished, int);   ///< 1 at its end, else 0
+  vtkGetMacro(Checking, int);   ///< 1 while it checks its result, else 0
   vtkGetMacro(Steps, int);      ///< that were taken; of an alignment: lines searched
   vtkGetMacro(Level, int);      ///< of the pyramid, from 0 on, the coarsest
   vtkGetMacro(Done, double);    ///< fraction of the most steps there may be, 0 to 1
@@ -138,13 +163,18 @@ private:
 
   void Begin(bool bends); // throws a Problem
   void BeginGuarded(bool bends);
+  void Advance();
   void Report();
+  void ReportChecks();
+  void Warn(const std::string& sentence);
   void ReportAlignment();
   void ReportRefinement();
 
   vtkWeakPointer<vtkAlgorithm> Source;
   int Similarity = 0;
   double Stiffness = 1.0;
+  int KeepFailed = 0;
+  int Starts = 1;
   double StartRotation[3] = { 0.0, 0.0, 0.0 };
   double StartTranslation[3] = { 0.0, 0.0, 0.0 };
 
@@ -154,8 +184,10 @@ private:
   std::string Problem;
   std::string Refusal;
   std::string Warning;
+  std::string Trust = "unchecked";
   std::string OverlapOf = "the volume";
   int Finished = 0;
+  int Checking = 0;
   int Steps = 0;
   int Level = 0;
   double Done = 0.0;

@@ -170,6 +170,8 @@ void AlignEditor::readFigures()
   at.rotation = this->figure("Rotation");
   at.refusal = this->text("Refusal");
   at.warning = this->text("Warning");
+  at.trust = this->text("Trust");
+  at.isChecking = this->figure("Checking") != 0.0;
 }
 
 void AlignEditor::takeStep()
@@ -186,11 +188,7 @@ void AlignEditor::takeStep()
     }
     this->readFigures();
   } while (this->Figures.done < 1.0 && since.elapsed() < SearchMs);
-  {
-    SCOPED_UNDO_EXCLUDE();
-    this->put(this->found());
-  }
-  drawMoving(this->Source);
+  this->show();
   if (!this->isActive())
   {
     return; // drawing may have processed an event that ended it
@@ -204,25 +202,46 @@ void AlignEditor::takeStep()
   Q_EMIT this->changed();
 }
 
+// The checks after the last line move nothing.
+void AlignEditor::show()
+{
+  const ReferencePlacement now = this->now();
+  const ReferencePlacement found = this->found();
+  if (found.rotation != now.rotation || found.translation != now.translation)
+  {
+    {
+      SCOPED_UNDO_EXCLUDE();
+      this->put(found);
+    }
+    drawMoving(this->Source);
+  }
+}
+
 void AlignEditor::keep(State end)
 {
   const bool hasBegun = this->Figures.lines > 0;
-  const ReferencePlacement found = hasBegun ? this->found() : this->Start;
-  // Undo returns to the last state that the session saw, so restore the start first.
-  this->restore();
-  const QString refusal = this->Figures.refusal;
-  if (!refusal.isEmpty())
+  this->Result = hasBegun ? this->found() : this->Start;
+  if (!this->Figures.refusal.isEmpty())
   {
-    this->end(State::Idle, tr("%1. The reference is back at its previous position.").arg(refusal));
+    this->discard(
+      tr("%1. The reference is back at its previous position.").arg(this->Figures.refusal));
     return;
   }
+  // Undo returns to the last state that the session saw, so restore the start first.
+  this->restore();
+  this->putResult();
+  this->end(end, {});
+}
+
+void AlignEditor::putResult()
+{
+  const ReferencePlacement& found = this->Result;
   if (found.rotation != this->Start.rotation || found.translation != this->Start.translation)
   {
     SCOPED_UNDO_SET(tr("Align"));
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Source->getProxy());
     this->put(found);
   }
-  this->end(end, {});
 }
 
 void AlignEditor::restore()
@@ -239,6 +258,16 @@ void AlignEditor::release()
     QObject::disconnect(edit);
   }
   this->Edits.clear();
+}
+
+bool AlignEditor::dependsOn(vtkObject* object, const char* property) const
+{
+  if (object == this->Source->getProxy())
+  {
+    return isAmong(Placement, property) || isAmong(Dependencies, property);
+  }
+  return isAmong(DeformationDependencies, property) ||
+    isLatticeSetting(vtkSMProxy::SafeDownCast(object), property);
 }
 
 void AlignEditor::followChange(vtkObject* object, const char* property)
@@ -258,8 +287,7 @@ void AlignEditor::followChange(vtkObject* object, const char* property)
     this->put(wanted);
     this->end(State::Idle, tr("%1 was changed, so Align ended.").arg(label));
   }
-  else if (isOwn ? isAmong(Dependencies, property)
-                 : isAmong(DeformationDependencies, property) || isLatticeSetting(proxy, property))
+  else
   {
     this->cancel(
       tr("%1 was changed, so Align ended. The reference is back at its previous position.")

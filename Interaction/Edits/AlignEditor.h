@@ -24,6 +24,8 @@ struct AlignFigures
   double rotation = 0.0;          ///< degrees, 0 or more
   QString refusal;                ///< The reason to discard the result; empty if there is none.
   QString warning;                ///< What the user must check; empty if nothing.
+  QString trust;                  ///< "unchecked", "good", "doubtful" or "failed"
+  bool isChecking = false;        ///< whether it has searched its last line and checks the result
 };
 
 class AlignEditor : public LiveRun
@@ -42,8 +44,10 @@ public:
 protected:
   void takeStep() override;
   void keep(State end) override;
+  void putResult() override;
   void restore() override; ///< The reference goes back to where it was.
   void release() override;
+  bool dependsOn(vtkObject* proxy, const char* property) const override;
   void followChange(vtkObject* proxy, const char* property) override;
   void followRemoval(pqPipelineSource* source) override;
 
@@ -64,9 +68,11 @@ private:
   /// The present result of the search, rounded for the panel.
   ReferencePlacement found() const;
   void put(const ReferencePlacement& placement);
+  void show();
 
   AlignFigures Figures;
   ReferencePlacement Start;
+  ReferencePlacement Result; ///< after the last step
 
   // While it is active:
   vtkNew<vtkEventQtSlotConnect> OfDeformation;

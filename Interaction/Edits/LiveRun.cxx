@@ -99,6 +99,7 @@ std::vector<double> LiveRun::numbers(const char* name) const
 void LiveRun::start()
 {
   this->Problem = QString();
+  this->HasDiscarded = false;
   this->Now = State::Running;
   qApp->installEventFilter(this);
   this->Next.start();
@@ -122,8 +123,28 @@ void LiveRun::cancel(const QString& problem)
   }
 }
 
+void LiveRun::discard(const QString& reason)
+{
+  const bool canBeKept = this->text("Trust") == "failed";
+  this->cancel(reason);
+  this->HasDiscarded = canBeKept;
+  Q_EMIT this->changed();
+}
+
+void LiveRun::keepDiscarded()
+{
+  if (!this->HasDiscarded)
+  {
+    return;
+  }
+  this->HasDiscarded = false;
+  this->putResult();
+  this->end(State::Finished, {});
+}
+
 void LiveRun::end(State end, const QString& problem)
 {
+  this->HasDiscarded = false;
   qApp->removeEventFilter(this);
   this->Next.stop();
   this->release();
@@ -144,10 +165,19 @@ void LiveRun::giveWay(bool begins)
 
 void LiveRun::notice(vtkObject* proxy, unsigned long, void*, void* name)
 {
-  if (this->isActive() && !this->Writing)
+  const auto property = static_cast<const char*>(name);
+  if (this->Writing || !(this->isActive() || this->HasDiscarded) ||
+    !this->dependsOn(proxy, property))
   {
-    this->followChange(proxy, static_cast<const char*>(name));
+    return;
   }
+  if (this->isActive())
+  {
+    this->followChange(proxy, property);
+    return;
+  }
+  this->HasDiscarded = false; // it started from something else
+  Q_EMIT this->changed();
 }
 
 bool LiveRun::eventFilter(QObject* watched, QEvent* event)

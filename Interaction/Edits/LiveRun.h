@@ -40,8 +40,12 @@ public:
   void stop();
   /// Ends it and restores the state before it. The undo stack sees nothing.
   void cancel(const QString& problem = {});
+  /// Keeps the result that failed its checks and was discarded, as one undo step.
+  void keepDiscarded();
 
   State state() const { return this->Now; }
+  /// Whether a failed result was discarded, and can still be kept: nothing it depends on changed.
+  bool hasDiscarded() const { return this->HasDiscarded; }
   bool isActive() const { return this->Now == State::Running || this->Now == State::Paused; }
   /// Why it could not begin or why it ended early: a sentence. Empty if neither happened.
   const QString& problem() const { return this->Problem; }
@@ -74,6 +78,8 @@ protected:
   void start();
   /// Ends it; the pipeline stays as it is.
   void end(State end, const QString& problem);
+  /// Restores the state before it, as cancel() does. A result that failed its checks can be kept.
+  void discard(const QString& reason);
   /// Stops it if an edit begins in the meantime.
   void giveWay(bool begins);
 
@@ -81,11 +87,16 @@ protected:
   virtual void takeStep() = 0;
   /// Keeps the result so far, then ends.
   virtual void keep(State end) = 0;
+  /// Writes the last result, as one undo step.
+  virtual void putResult() = 0;
   /// Restores the state before it.
   virtual void restore() = 0;
   /// Releases the members that are used while it is active.
   virtual void release() = 0;
-  /// A property changed from outside: of the source, or of another proxy connected to notice().
+  /// Whether the result depends on a property: of the source, or of another proxy connected to
+  /// notice().
+  virtual bool dependsOn(vtkObject* proxy, const char* property) const = 0;
+  /// Such a property changed from outside while it is active.
   virtual void followChange(vtkObject* proxy, const char* property) = 0;
   /// A source is about to be deleted.
   virtual void followRemoval(pqPipelineSource* source) = 0;
@@ -100,6 +111,8 @@ protected:
 
 private:
   void followApplication();
+
+  bool HasDiscarded = false;
 
   vtkNew<vtkEventQtSlotConnect> OfSource;
   vtkSmartPointer<vtkSMProxy> Proxy;

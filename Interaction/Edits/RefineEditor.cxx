@@ -261,6 +261,8 @@ void RefineEditor::readFigures()
   at.meanChange = this->figure("MeanChange");
   at.refusal = this->text("Refusal");
   at.warning = this->text("Warning");
+  at.trust = this->text("Trust");
+  at.isChecking = this->figure("Checking") != 0.0;
   this->Points = this->numbers("ControlPoints");
   if (at.steps > former) // else the call tried a length of a step, or prepared a level
   {
@@ -327,7 +329,7 @@ void RefineEditor::takeStep()
   this->readFigures();
   if (!this->Figures.refusal.isEmpty())
   {
-    this->cancel(tr("%1. Nothing was changed.").arg(this->Figures.refusal));
+    this->discard(tr("%1. Nothing was changed.").arg(this->Figures.refusal));
   }
   else if (this->Figures.done >= 1.0)
   {
@@ -361,11 +363,15 @@ void RefineEditor::pause(bool on)
 
 void RefineEditor::keep(State end)
 {
-  const std::vector<double> found = this->Points;
-  const bool hasChanged = found != this->Start;
   // Undo returns to the last state that the session saw, so restore the start first.
   this->restore();
-  if (hasChanged)
+  this->putResult();
+  this->end(end, {});
+}
+
+void RefineEditor::putResult()
+{
+  if (this->Points != this->Start)
   {
     vtkSMProxy* deformation = this->Source->getProxy();
     SCOPED_UNDO_SET(tr("Refine"));
@@ -382,13 +388,12 @@ void RefineEditor::keep(State end)
       registerQuietly(lattice);
     }
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", deformation);
-    this->putIn(lattice, found);
+    this->putIn(lattice, this->Points);
   }
   vtkSMProxy* proxy = this->Source->getProxy();
   vtkSMSourceProxy::SafeDownCast(proxy)->UpdatePipeline();
   proxy->UpdatePropertyInformation(proxy->GetProperty("MinimumJacobian"));
   this->Figures.smallestDeterminant = vtkSMPropertyHelper(proxy, "MinimumJacobian").GetAsDouble();
-  this->end(end, {});
 }
 
 void RefineEditor::restore()
@@ -451,15 +456,17 @@ void RefineEditor::abandon(const QString& problem)
   this->end(State::Idle, problem);
 }
 
-void RefineEditor::followChange(vtkObject*, const char* property)
+bool RefineEditor::dependsOn(vtkObject*, const char* property) const
 {
   const auto isChanged = [property](const char* name) { return std::strcmp(property, name) == 0; };
-  if (std::any_of(std::begin(Dependencies), std::end(Dependencies), isChanged) ||
-    isLatticeSetting(this->Source->getProxy(), property))
-  {
-    this->abandon(tr("%1 of %2 was changed, so the refinement ended.")
-        .arg(QString(this->Source->getProxy()->GetProperty(property)->GetXMLLabel()),
-          this->Source->getSMName()));
-  }
+  return std::any_of(std::begin(Dependencies), std::end(Dependencies), isChanged) ||
+    isLatticeSetting(this->Source->getProxy(), property);
+}
+
+void RefineEditor::followChange(vtkObject*, const char* property)
+{
+  this->abandon(tr("%1 of %2 was changed, so the refinement ended.")
+      .arg(QString(this->Source->getProxy()->GetProperty(property)->GetXMLLabel()),
+        this->Source->getSMName()));
 }
 }

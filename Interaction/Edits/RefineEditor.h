@@ -56,6 +56,8 @@ struct RefineFigures
   double meanChange = 0.0;    ///< mm
   QString refusal;            ///< The reason to discard the result; empty if there is none.
   QString warning;            ///< What the user must check; empty if nothing.
+  QString trust;              ///< "unchecked", "good", "doubtful" or "failed"
+  bool isChecking = false;    ///< whether it has taken its last step and checks the result
   std::optional<double> smallestDeterminant; ///< Jacobian; known once the result was kept
 };
 
@@ -80,8 +82,10 @@ public:
 protected:
   void takeStep() override;
   void keep(State end) override;
+  void putResult() override;
   void restore() override;
   void release() override;
+  bool dependsOn(vtkObject* proxy, const char* property) const override;
   void followChange(vtkObject* proxy, const char* property) override;
   void followRemoval(pqPipelineSource* source) override;
   /// Removes the temporary lattice, unless the deformation uses it.

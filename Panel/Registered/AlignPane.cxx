@@ -33,7 +33,7 @@ QString alignProgress(const AlignFigures& figures)
 {
   return AlignPane::tr("Step %1: mutual information %2 nats. ")
            .arg(QString::number(figures.lines), figure(figures.information, 3)) +
-    moved(figures);
+    moved(figures) + (figures.isChecking ? " " + checkingText() : QString());
 }
 
 QString alignResult(const QString& ended, const AlignFigures& figures)
@@ -42,7 +42,7 @@ QString alignResult(const QString& ended, const AlignFigures& figures)
            "%1 after %2 steps. Mutual information: %3 nats before, %4 now (higher is better). ")
            .arg(ended, QString::number(figures.lines), figure(figures.informationBefore, 3),
              figure(figures.information, 3)) +
-    moved(figures);
+    moved(figures) + " " + trustText(figures.trust);
 }
 }
 
@@ -59,6 +59,7 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   , Progress(new QProgressBar)
   , Report(makeText("BrainShiftAlignSaid"))
   , Warning(makeText("BrainShiftAlignWarning"))
+  , Keep(makeKeep("BrainShiftAlignKeep"))
 {
   this->setObjectName("BrainShiftAlignPane");
   this->Progress->setObjectName("BrainShiftAlignProgress");
@@ -76,9 +77,11 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   {
     column->addWidget(part);
   }
+  column->addWidget(this->Keep);
   if (this->Editor)
   {
     this->connect(this->Align, &QToolButton::clicked, this->Editor, &AlignEditor::begin);
+    this->connect(this->Keep, &QToolButton::clicked, this->Editor, &AlignEditor::keepDiscarded);
     this->connect(this->Stop, &QToolButton::clicked, this->Editor, &AlignEditor::stop);
     this->connect(this->Editor, &AlignEditor::changed, this, &AlignPane::refresh);
   }
@@ -94,6 +97,7 @@ void AlignPane::refresh()
   const bool active = this->Editor->isActive();
   this->Align->setEnabled(!active);
   this->Stop->setEnabled(active);
+  this->Keep->setVisible(this->Editor->hasDiscarded());
   this->Progress->setVisible(active);
   this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));
   this->report();

@@ -33,6 +33,7 @@ private:
   QProgressBar* const Progress;
   QLabel* const Report;
   QLabel* const Warning;
+  QToolButton* const Keep;
 };
 }
 

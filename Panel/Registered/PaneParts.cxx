@@ -2,6 +2,7 @@
 #include "Panel/Registered/PaneParts.h"
 
 #include "Interaction/Displays/SharedSettings.h"
+#include "Interaction/Landmarks/LandmarkErrors.h"
 #include "Panel/Parts/Advice.h"
 
 #include <QLabel>
@@ -45,6 +46,69 @@ QLabel* makeText(const char* name)
   text->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   text->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Minimum);
   return text;
+}
+
+QString trustText(const QString& trust)
+{
+  if (trust == "good")
+  {
+    return CostPlot::tr("Its checks found no fault.");
+  }
+  if (trust == "doubtful")
+  {
+    return CostPlot::tr("The result is doubtful.");
+  }
+  return trust == "failed" ? CostPlot::tr("The result failed its checks.")
+                           : CostPlot::tr("The result was not checked.");
+}
+
+QString checkingText()
+{
+  return CostPlot::tr("Checking the result ...");
+}
+
+QToolButton* makeKeep(const char* name)
+{
+  return makeButton(name, CostPlot::tr("Keep Anyway"),
+    CostPlot::tr("Keep the result that failed its checks, as one undo step."));
+}
+
+namespace
+{
+QString tableRow(const QString& name, double before, double now)
+{
+  return QString("<tr><td>%1&nbsp;&nbsp;</td><td align='right'>%2&nbsp;&nbsp;</td>"
+                 "<td align='right'>%3</td></tr>")
+    .arg(name, QString::number(before, 'f', 2), QString::number(now, 'f', 2));
+}
+}
+
+QString errorTable(const QList<LandmarkError>& errors)
+{
+  if (errors.isEmpty())
+  {
+    return {};
+  }
+  LandmarkError mean;
+  LandmarkError largest;
+  QString rows;
+  bool hasFitted = false;
+  for (const LandmarkError& error : errors)
+  {
+    mean.before += error.before / static_cast<double>(errors.size());
+    mean.now += error.now / static_cast<double>(errors.size());
+    largest.before = std::max(largest.before, error.before);
+    largest.now = std::max(largest.now, error.now);
+    hasFitted = hasFitted || error.wasInFit;
+    rows +=
+      tableRow(error.name.toHtmlEscaped() + (error.wasInFit ? " *" : ""), error.before, error.now);
+  }
+  const QString head =
+    QString("<tr><th align='left'>%1&nbsp;&nbsp;</th><th>%2&nbsp;&nbsp;</th><th>%3</th></tr>")
+      .arg(CostPlot::tr("Landmark error (mm)"), CostPlot::tr("before"), CostPlot::tr("now"));
+  return "<table>" + head + tableRow(CostPlot::tr("mean"), mean.before, mean.now) +
+    tableRow(CostPlot::tr("largest"), largest.before, largest.now) + rows + "</table>" +
+    (hasFitted ? CostPlot::tr("* fitted before, so its error before is no judge") : QString());
 }
 
 void showTexts(QLabel* report, const QString& text, QLabel* warning, const QString& warningText)

@@ -13,11 +13,25 @@ class QToolButton;
 
 namespace brainshift
 {
+struct LandmarkError;
+
 /// A button that leaves the keyboard where it is when it is clicked.
 QToolButton* makeButton(const char* name, const QString& text, const QString& tip);
 
 /// A text that wraps and can be copied.
 QLabel* makeText(const char* name);
+
+/// A sentence about the trust in a result (AlignFigures::trust).
+QString trustText(const QString& trust);
+
+/// A sentence while the result is checked.
+QString checkingText();
+
+/// Keeps a result that failed its checks. Hidden while there is none.
+QToolButton* makeKeep(const char* name);
+
+/// A table of the errors of landmarks, as rich text. Empty if there are none.
+QString errorTable(const QList<LandmarkError>& errors);
 
 /// Shows a report and a warning, each hidden if it is empty.
 void showTexts(QLabel* report, const QString& text, QLabel* warning, const QString& warningText);

@@ -2,7 +2,7 @@
 #include "Panel/Registered/RefinePane.h"
 
 #include "Interaction/Commands/Application.h"
-#include "Interaction/Edits/RefineEditor.h"
+#include "Interaction/Landmarks/LandmarkErrors.h"
 #include "Panel/Registered/PaneParts.h"
 
 #include <pqOutputPort.h>
@@ -125,10 +125,11 @@ QString percent(double fraction)
 QString refineProgress(const RefineFigures& figures)
 {
   return RefinePane::tr(
-    "Step %1: control points moved %2 mm at most, %3 mm on average. %4 % of %5 is "
-    "compared.")
-    .arg(QString::number(figures.steps), figure(figures.largestChange), figure(figures.meanChange),
-      percent(figures.overlap), figures.overlapOf);
+           "Step %1: control points moved %2 mm at most, %3 mm on average. %4 % of %5 is "
+           "compared.")
+           .arg(QString::number(figures.steps), figure(figures.largestChange),
+             figure(figures.meanChange), percent(figures.overlap), figures.overlapOf) +
+    (figures.isChecking ? " " + checkingText() : QString());
 }
 
 QString refineResult(const QString& ended, const RefineFigures& figures)
@@ -150,6 +151,7 @@ QString refineResult(const QString& ended, const RefineFigures& figures)
     : RefinePane::tr("The guard against folding shortened no step.");
   lines +=
     RefinePane::tr("%1 % of %2 was compared.").arg(percent(figures.overlap), figures.overlapOf);
+  lines += trustText(figures.trust);
   return lines.join(' ');
 }
 
@@ -175,6 +177,7 @@ RefinePane::RefinePane(pqPipelineSource* deformation, QWidget* parent)
   : QWidget(parent)
   , Deformation(deformation)
   , Editor(RefineEditor::of(deformation))
+  , OfLandmarks(LandmarkErrors::of(deformation))
   , Opener(makeButton("BrainShiftRefineOpen", tr("Refine"),
       tr("Refine the deformation automatically so that the volume matches a reference.")))
   , Body(new QWidget(this))
@@ -272,11 +275,19 @@ void RefinePane::addProgress(QVBoxLayout* column)
   this->Plot->setObjectName("BrainShiftRefineCurve");
   this->Report = makeText("BrainShiftRefineSaid");
   this->Warning = makeText("BrainShiftRefineWarning");
+  this->Errors = makeText("BrainShiftRefineLandmarks");
+  this->Errors->setToolTip(
+    tr("Distance of each landmark's tissue from its measured position, before and after the "
+       "refinement."));
   for (QWidget* part : { static_cast<QWidget*>(this->Progress), static_cast<QWidget*>(this->Plot),
-         static_cast<QWidget*>(this->Report), static_cast<QWidget*>(this->Warning) })
+         static_cast<QWidget*>(this->Report), static_cast<QWidget*>(this->Warning),
+         static_cast<QWidget*>(this->Errors) })
   {
     column->addWidget(part);
   }
+  this->Keep = makeKeep("BrainShiftRefineKeep");
+  column->addWidget(this->Keep);
+  this->connect(this->Keep, &QToolButton::clicked, this->Editor, &RefineEditor::keepDiscarded);
 }
 
 void RefinePane::followApplication()
@@ -370,6 +381,7 @@ void RefinePane::refresh()
   this->Stop->setEnabled(active);
   this->Progress->setVisible(active);
   this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));
+  this->Keep->setVisible(this->Editor->hasDiscarded());
   this->Plot->setVisible(ran && this->Editor->state() != RefineEditor::State::Idle);
   this->Plot->setCosts(this->Editor->costs());
   this->report();
@@ -400,6 +412,11 @@ void RefinePane::report()
       break;
   }
   showTexts(this->Report, report, this->Warning, warning);
+  const QString errors = this->OfLandmarks && this->Editor->state() != RefineEditor::State::Idle
+    ? errorTable(this->OfLandmarks->errors())
+    : QString();
+  this->Errors->setText(errors);
+  this->Errors->setVisible(!errors.isEmpty());
 }
 
 // The figures of a run often appear below the panel's lower edge. If the user has scrolled away,

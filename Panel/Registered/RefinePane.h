@@ -20,6 +20,7 @@ class pqPipelineSource;
 namespace brainshift
 {
 class CostPlot;
+class LandmarkErrors;
 class RefineEditor;
 
 class RefinePane : public QWidget
@@ -47,6 +48,7 @@ private:
 
   const QPointer<pqPipelineSource> Deformation; ///< It may go before its panel does.
   const QPointer<RefineEditor> Editor;
+  const QPointer<LandmarkErrors> OfLandmarks;
   QToolButton* const Opener;
   QWidget* const Body;
   QComboBox* Reference = nullptr;
@@ -62,6 +64,8 @@ private:
   CostPlot* Plot = nullptr;
   QLabel* Report = nullptr;
   QLabel* Warning = nullptr;
+  QLabel* Errors = nullptr;
+  QToolButton* Keep = nullptr;
   QTimer Soon; ///< Merges the events that change the lists.
 };
 }

@@ -22,7 +22,8 @@ from .judging import TargetErrors, tre
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .points import map_points, read_points
-from .registering import Alignment, Refinement, align, refine, similarities
+from .registering import (
+    Alignment, Refinement, RegistrationFailed, align, refine, similarities)
 from .sample import open_sample
 from .strokes import MOVE, NUMBERS_PER_STROKE, SOFT, STAMP, move, soft, stamp
 from .transforms import Transform, apply_transform, read_transform, save_transform
@@ -30,7 +31,8 @@ from .views import four_views, show_comparison
 from .windows import percentile_window
 
 __all__ = [
-    "Alignment", "Fit", "MOVE", "NUMBERS_PER_STROKE", "Refinement", "SOFT", "STAMP",
+    "Alignment", "Fit", "MOVE", "NUMBERS_PER_STROKE", "Refinement", "RegistrationFailed",
+    "SOFT", "STAMP",
     "TargetErrors", "Transform", "align", "animate", "apply_transform", "counters",
     "deformed_from_rest", "dicom_patient", "figure", "fit", "four_views", "gpu",
     "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",

@@ -4,6 +4,8 @@
 from .fitting import forget_former, is_kind, own
 from .reports import numbers
 
+_MOST_STARTS = 64
+
 
 def _new_run(session):
     run = session.NewProxy("misc", "RegistrationRun")
@@ -54,7 +56,10 @@ class _Run:
         return numpy.array(numbers(self.proxy, name))
 
     def steps(self, result, callback):
-        """Steps until it is finished or the callback returns False. Returns the warning, or ""."""
+        """Steps until it is finished or the callback returns False. Gives the result its figures.
+
+        Raises `RegistrationFailed` if it failed its checks, and `ValueError` if nothing overlaps.
+        """
         taken = 0
         stop = False
         while not stop and not result.finished:
@@ -68,9 +73,41 @@ class _Run:
             # A call may have tried a length of a step only, or prepared a level.
             stop = (callback is not None and result.steps > taken and callback(result) is False)
             taken = result.steps
+        result.trust = self.figure("Trust")
+        result.warnings = [line for line in self.figure("Warning").split("\n") if line]
         if self.figure("Refusal"):
-            raise ValueError(self.figure("Refusal") + ". Nothing was changed")
-        return self.figure("Warning")
+            raise _refused(self.figure("Refusal"), result)
+
+
+class RegistrationFailed(ValueError):
+    """The result of `align` or `refine` failed its checks, and nothing was changed.
+
+    - `found`: the result, an `Alignment` or a `Refinement`, with its figures
+    """
+
+    def __init__(self, reason, found):
+        super().__init__(reason)
+        self.found = found
+
+
+def _refused(reason, result):
+    """The error for a result that is discarded."""
+    if result.trust == "failed":
+        return RegistrationFailed(
+            reason + ". Nothing was changed; keep_failed=True keeps the result", result)
+    return ValueError(reason + ". Nothing was changed")
+
+
+def _warn(result):
+    """Shows the warnings of a result to the caller of the function that made it."""
+    import warnings
+
+    if result.warnings:
+        warnings.warn(" ".join(result.warnings), stacklevel=3)
+
+
+def _check_text(result):
+    return ("finished" if result.finished else "stopped") + f", {result.trust}"
 
 
 class Alignment:
@@ -86,6 +123,9 @@ class Alignment:
       starts up to 20 mm and 15 degrees away.
     - `steps`, `level`: number of searched lines, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
+    - `trust`: how far the result may be trusted, by checks of itself: "good", "doubtful" or
+      "failed", or "unchecked" if the callback stopped it or too little was compared
+    - `warnings`: what you must check, a list of sentences
 
     Printed, it is a line of figures.
     """
@@ -96,12 +136,13 @@ class Alignment:
                "steps": "Steps", "turn": "Rotation"}
 
     finished = False
+    trust = "unchecked"
+    warnings = ()
 
     def __repr__(self):
         return (f"Alignment: moved by {self.shift:.2f} mm and {self.turn:.2f} degrees, information "
                 f"{self.information_before:.3f} to {self.information:.3f} nats, compared "
-                f"{self.compared:.2f} of the volume, {self.steps} steps, "
-                + ("finished" if self.finished else "stopped"))
+                f"{self.compared:.2f} of the volume, {self.steps} steps, " + _check_text(self))
 
 
 class Refinement:
@@ -119,6 +160,9 @@ class Refinement:
     - `moved`: the longest displacement of a control point in the last step
     - `steps`, `level`: number of steps, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
+    - `trust`: how far the result may be trusted, by checks of itself: "good", "doubtful" or
+      "failed", or "unchecked" if the callback stopped it or too little was compared
+    - `warnings`: what you must check, a list of sentences
 
     Printed, it is a line of figures.
     """
@@ -129,17 +173,26 @@ class Refinement:
                "moved": "LongestMove", "share": "StepFraction", "steps": "Steps"}
 
     finished = False
+    trust = "unchecked"
+    warnings = ()
     smallest_determinant = float("nan")  # until the run has ended
 
     def __repr__(self):
         return (f"Refinement: cost {self.disagreement_before:.4f} to {self.disagreement:.4f}, "
                 f"largest change {self.largest_change:.2f} mm, mean {self.mean_change:.2f} mm, "
                 f"smallest determinant {self.smallest_determinant:.3f}, compared "
-                f"{self.compared:.2f} of the volume, {self.steps} steps, "
-                + ("finished" if self.finished else "stopped"))
+                f"{self.compared:.2f} of the volume, {self.steps} steps, " + _check_text(self))
 
 
-def align(compare, callback=None):
+def _starts(starts):
+    """A number of starts, or an error that names the limits."""
+    if isinstance(starts, bool) or int(starts) != starts or not 1 <= starts <= _MOST_STARTS:
+        raise ValueError(f"starts is {starts!r}; it must be a whole number from 1 to "
+                         f"{_MOST_STARTS}")
+    return int(starts)
+
+
+def align(compare, callback=None, keep_failed=False, starts=1):
     """Register the reference rigidly: maximise its mutual information with the volume.
 
     The two volumes need no common contrast. The deformed volume is compared; under a mask only the
@@ -148,27 +201,30 @@ def align(compare, callback=None):
     - `compare`: a Compare Volumes. The search starts from the present position of its reference and
       sets `ReferenceRotation` and `ReferenceTranslation`.
     - `callback`: is called after each step with the `Alignment` so far. If it returns `False`, the
-      search stops. The default is `None`.
+      search stops, and the result is not checked. The default is `None`.
+    - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
+      `False`: it is an error, and the reference stays where it was.
+    - `starts`: number of positions from which the search begins, 1 to 64. Beyond the present one
+      they are up to 30 mm and 30 degrees from it, always the same. The result with the most
+      information is kept. The default is 1.
 
     Returns an `Alignment`.
 
-    Raises `ValueError` with the reason if the volumes cannot be compared.
+    Raises `RegistrationFailed` if the result fails its checks, and `ValueError` with the reason if
+    the volumes cannot be compared. The reference then stays where it was.
     """
-    import warnings
-
-    start = {}  # another source has no reference, and the run reports that
-    if is_kind(compare, "CompareVolumes"):
-        start = {"StartRotation": compare.ReferenceRotation,
-                 "StartTranslation": compare.ReferenceTranslation}
+    start = {"Starts": _starts(starts), "KeepFailed": int(keep_failed)}
+    if is_kind(compare, "CompareVolumes"):  # else the run reports that there is no reference
+        start.update(StartRotation=compare.ReferenceRotation,
+                     StartTranslation=compare.ReferenceTranslation)
     run = _Run(compare, "BeginAlignment", **start)
     result = Alignment()
-    warning = run.steps(result, callback)
+    run.steps(result, callback)
     result.matrix = run.numbers("Motion").reshape(4, 4)
     result.rotation, result.translation = run.numbers("Placement").reshape(2, 3)
     compare.ReferenceRotation = result.rotation.tolist()
     compare.ReferenceTranslation = result.translation.tolist()
-    if warning:
-        warnings.warn(warning, stacklevel=2)
+    _warn(result)
     return result
 
 
@@ -211,7 +267,8 @@ def _hold(bent, control_points):
     return held
 
 
-def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callback=None):
+def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callback=None,
+           keep_failed=False, starts=1):
     """Refine a deformation automatically so that the volume matches a reference.
 
     It starts from the present deformation, a fit and strokes, and changes it as little as the
@@ -228,27 +285,33 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     - `cavity`: a ParaView source of a mask, if `reference` is no Compare Volumes. Tissue inside
       it does not count.
     - `callback`: is called after each step with the `Refinement` so far. If it returns `False`,
-      that is the result. The default is `None`.
+      that is the result, and it is not checked. The default is `None`.
+    - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
+      `False`: it is an error, and the deformation stays as it was.
+    - `starts`: number of positions from which the volume moves rigidly before it bends, 1 to 64.
+      Only the similarity for ultrasound moves it rigidly; for others it makes no difference. Beyond
+      the present one they are up to 6 mm and 6 degrees from it, always the same. The result with
+      the least cost is kept. The default is 1. Take 8 if the position may be more than 3 mm off.
 
     Returns a `Refinement`.
 
-    Raises `ValueError` with the reason if the volumes cannot be compared. The deformation then
-    stays as it was.
+    Raises `RegistrationFailed` if the result fails its checks, and `ValueError` with the reason if
+    the volumes cannot be compared. The deformation then stays as it was.
     """
-    import warnings
-
     from paraview import simple
 
     names = list(similarities())
     if similarity not in (None, *names):
         raise ValueError(f"similarity is {similarity!r}; it must be one of {names}")
+    starts = _starts(starts)
     active = simple.GetActiveSource()
     compare, made = _compared(filter, reference, cavity)
     result = Refinement()
     try:
         run = _Run(compare, "BeginRefinement", Stiffness=float(stiffness),
-                   Similarity=0 if similarity is None else names.index(similarity))
-        warning = run.steps(result, callback)
+                   Similarity=0 if similarity is None else names.index(similarity),
+                   KeepFailed=int(keep_failed), Starts=starts)
+        run.steps(result, callback)
     finally:
         if made:
             simple.Delete(compare)
@@ -257,6 +320,5 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     result.filter = _hold(filter, run.numbers("ControlPoints"))
     result.smallest_determinant = filter.GetPropertyValue("MinimumJacobian")
     simple.SetActiveSource(active)
-    if warning:
-        warnings.warn(warning, stacklevel=2)
+    _warn(result)
     return result

@@ -119,9 +119,9 @@ def edit(name, *tools):
     assert [stroke[0] for stroke in strokes()] == list(tools), strokes()
 
 
-def until(holds, what):
-    """Lets the window work until something holds, for 30 seconds at most."""
-    end = time.monotonic() + 30.0
+def until(holds, what, seconds=30.0):
+    """Lets the window work until something holds, for that long at most."""
+    end = time.monotonic() + seconds
     while not holds():
         assert time.monotonic() < end, f"never: {what}"
         hand.wait(20)

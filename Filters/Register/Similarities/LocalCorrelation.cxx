@@ -2,6 +2,7 @@
 // Squared local correlation (NCC) in small windows: both volumes have the same contrast, perhaps
 // inverted.
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
+#include "Filters/Register/Similarities/SelfSimilarity.h"
 
 namespace brainshift
 {
@@ -11,6 +12,7 @@ namespace
 constexpr double MostCost = 0.2;
 
 const Metric LocalCorrelationMetric = localCorrelationMetric();
+const Metric SelfSimilarityMetric = selfSimilarityMetric();
 }
 
 Similarity describeLocalCorrelation()
@@ -22,6 +24,8 @@ Similarity describeLocalCorrelation()
                    "alone, which takes less time.";
   result.plan.levels = { { &LocalCorrelationMetric, 4.0 }, { &LocalCorrelationMetric, 2.0 },
     { &LocalCorrelationMetric, 1.3, MostCost, false, true } };
+  result.plan.check.halves = { &LocalCorrelationMetric, 4.0, 1.0, true };
+  result.plan.check.other = { &SelfSimilarityMetric, 4.0, 1.0, true };
   return result;
 }
 }

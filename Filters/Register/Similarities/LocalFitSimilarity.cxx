@@ -109,7 +109,6 @@ namespace
 {
 constexpr float LeastWindow = 0.3f;            // fraction of its samples that a window must have
 constexpr float LeastVarianceFraction = 0.02f; // of the mean variance of a volume's windows
-constexpr float Ridge = 1e-4f;                 // variance (range 0 to 1) of a volume that is flat
 
 // Sums over a window; G is the second term. Its results for its samples (Left) replace them.
 enum Sum
@@ -195,10 +194,10 @@ std::vector<float> windowVariances(
 }
 
 // A variance below which a window is taken for flat.
-float leastVariance(const std::vector<float>& variances)
+float leastVariance(const std::vector<float>& variances, float ridge)
 {
   const double sum = std::accumulate(variances.begin(), variances.end(), 0.0);
-  return std::max(Ridge, static_cast<float>(LeastVarianceFraction * sum / variances.size()));
+  return std::max(ridge, static_cast<float>(LeastVarianceFraction * sum / variances.size()));
 }
 }
 
@@ -236,13 +235,14 @@ LocalFitSimilarity::LocalFitSimilarity(
   , Samples(level, lattice)
   , Rest(std::move(level.rest.values))
   , Reference(std::move(level.reference))
+  , Ridge(fit.ridge)
 {
   toFractions(this->Rest, level.restWeights.values);
   toFractions(this->Reference.values, level.referenceWeights.values);
-  this->LeastVariance =
-    leastVariance(windowVariances(this->Around, this->Reference.values, level.referenceWeights));
+  this->LeastVariance = leastVariance(
+    windowVariances(this->Around, this->Reference.values, level.referenceWeights), this->Ridge);
   const std::vector<float> variances = windowVariances(this->Around, this->Rest, level.restWeights);
-  const float least = leastVariance(variances);
+  const float least = leastVariance(variances, this->Ridge);
   for (const float variance : variances)
   {
     this->Varies.push_back(variance > least ? 1 : 0);
@@ -353,7 +353,7 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
   {
     const float p = numbers[P] / samples;
     const float v = numbers[V] / samples;
-    const float pp = numbers[PP] / samples - p * p + Ridge;
+    const float pp = numbers[PP] / samples - p * p + this->Ridge;
     const float vp = numbers[VP] / samples - v * p;
     const float vv = std::max(0.0f, numbers[VV] / samples - v * v);
     float a = vp / pp;
@@ -363,7 +363,7 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
     if (this->hasSecond())
     {
       g = numbers[G] / samples;
-      const float gg = numbers[GG] / samples - g * g + Ridge;
+      const float gg = numbers[GG] / samples - g * g + this->Ridge;
       const float pg = numbers[PG] / samples - p * g;
       const float vg = numbers[VG] / samples - v * g;
       const float determinant = pp * gg - pg * pg; // above 0 by the ridges
@@ -473,8 +473,8 @@ CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displace
 namespace
 {
 constexpr LocalFit ByVolume{};
-constexpr LocalFit ByGradients{ SecondTerm::GradientLength };
-constexpr LocalFit BySquare{ SecondTerm::Square };
+constexpr LocalFit ByGradients{ SecondTerm::GradientLength, 2 };
+constexpr LocalFit BySquare{ SecondTerm::Square, 2, 3e-5f };
 
 template <const LocalFit& Fit>
 Metric metricOf()

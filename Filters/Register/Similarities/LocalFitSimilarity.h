@@ -92,6 +92,7 @@ struct LocalFit
 {
   SecondTerm second = SecondTerm::None;
   int windowRadius = 3; ///< points
+  float ridge = 1e-4f;  ///< variance of the volume (range 0 to 1) below which it is flat; above 0
 };
 
 class LocalFitSimilarity : public Comparison
@@ -105,6 +106,8 @@ public:
   ~LocalFitSimilarity() override;
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
+
+  void restrictTo(const HalfSpace& half) override { this->Samples.restrictTo(half); }
 
 private:
   struct Work;
@@ -125,14 +128,15 @@ private:
   std::vector<float> Second;   // the same of the second term; empty without
   Volume Reference;            // at the points, 0 to 1
   std::vector<char> Varies;    // of the windows; 1: the volume varies there
+  float Ridge;                 // of LocalFit
   float LeastVariance;         // of the reference, below which a window carries little information
   std::unique_ptr<Work> Known; // of the last comparison; its memory serves the next one
 };
 
 /** The metrics of local fits. */
 Metric localCorrelationMetric(); ///< by the volume alone, windows of 7 points
-Metric linearFitWithGradients(); ///< LC2, windows of 7 points
-Metric quadraticFitMetric();     ///< by the volume and its square, windows of 7 points
+Metric linearFitWithGradients(); ///< LC2, windows of 5 points
+Metric quadraticFitMetric();     ///< by the volume and its square, windows of 5 points
 }
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -115,10 +116,9 @@ std::vector<float> selfSimilarity(const Volume& volume)
 namespace
 {
 constexpr int Lanes = 4; // numbers that a processor takes in one step
-constexpr int Channels = SelfSimilarityNumbers;
-static_assert(Channels % Lanes == 0, "every step is full");
+static_assert(SelfSimilarityNumbers % Lanes == 0, "every step is full");
 
-// Sums over the 12 numbers: squared difference, its products with the three slopes, and the
+// Sums over all numbers of a point: squared difference, its products with the three slopes, and the
 // products of the slopes.
 constexpr int Sums = 10;
 
@@ -141,7 +141,8 @@ inline void addProducts(
   }
 }
 
-// `rest`: 12 numbers of a sample. `reference`: those of the first of eight neighbours.
+// `rest`: the numbers of a sample. `reference`: those of the first of eight neighbours.
+template <int Channels>
 void compareNumbers(
   const float* rest, const float* reference, const Neighbours& at, float sums[][Lanes])
 {
@@ -200,12 +201,87 @@ float forceOf(
   return total[0];
 }
 
-// Mean squared difference of the 12 numbers of both volumes.
+// The numbers of each point of a volume; with `Images` 2, also those of its gradient's length.
+template <int Images>
+std::vector<float> numbersOf(const Volume& volume)
+{
+  std::vector<float> numbers = selfSimilarity(volume);
+  if constexpr (Images == 2)
+  {
+    const std::vector<float> more = selfSimilarity({ volume.grid, gradientLength(volume) });
+    std::vector<float> both(2 * numbers.size());
+    const std::size_t points = volume.values.size();
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      float* to = &both[2 * i * SelfSimilarityNumbers];
+      to = std::copy_n(&numbers[i * SelfSimilarityNumbers], SelfSimilarityNumbers, to);
+      std::copy_n(&more[i * SelfSimilarityNumbers], SelfSimilarityNumbers, to);
+    }
+    return both;
+  }
+  return numbers;
+}
+
+// A sample counts by g / (g + this times the median of g), where g is the volume's steepness.
+// Where tissue is flat, its numbers come from the noise.
+constexpr float SteepShare = 3.0f;
+
+std::vector<float> importanceOf(const LevelVolumes& level)
+{
+  std::vector<float> steepness = gradientLength(level.rest);
+  std::vector<float> counting;
+  for (std::size_t i = 0; i < steepness.size(); ++i)
+  {
+    if (level.restWeights.values[i] > 0.0f)
+    {
+      counting.push_back(steepness[i]);
+    }
+  }
+  if (counting.empty())
+  {
+    return steepness;
+  }
+  const auto middle = counting.begin() + static_cast<std::ptrdiff_t>(counting.size() / 2);
+  std::nth_element(counting.begin(), middle, counting.end());
+  const float least = SteepShare * *middle;
+  for (float& value : steepness)
+  {
+    value = value + least > 0.0f ? value / (value + least) : 1.0f;
+  }
+  return steepness;
+}
+
+// Numbers of neighbouring samples are alike. So a search may take one in so many, those whose three
+// indices are all even or all odd.
+constexpr double SamplesForOne = 4.0;
+
+void thinOut(LevelSamples& samples)
+{
+  const glm::ivec3 sides = samples.rows.samples().dimensions;
+  std::size_t number = 0;
+  for (int k = 0; k < sides.z; ++k)
+  {
+    for (int j = 0; j < sides.y; ++j)
+    {
+      for (int i = 0; i < sides.x; ++i, ++number)
+      {
+        samples.weights[number] *= (i - k) % 2 == 0 && (j - k) % 2 == 0 ? 1.0f : 0.0f;
+      }
+    }
+  }
+  samples.findStretches();
+}
+
+// Mean squared difference of the numbers of both volumes, added up over 12. With two images,
+// samples count by their importance.
+template <int Images, bool IsThin>
 class SelfSimilarity : public Comparison
 {
 public:
-  /** For each point of a level: four times 12 numbers while it is prepared, and weights. */
-  static constexpr double BytesPerPoint = 208.0;
+  static constexpr int Channels = Images * SelfSimilarityNumbers;
+
+  /** For each point of a level: four times its numbers while it is prepared, and weights. */
+  static constexpr double BytesPerPoint = 16.0 + 4.0 * sizeof(float) * (Channels + Images - 1);
 
   SelfSimilarity(LevelVolumes level, const Lattice& lattice)
     : Level(std::move(level))
@@ -213,82 +289,121 @@ public:
   {
   }
 
-  bool prepare() override;
+  bool prepare() override
+  {
+    if (this->Reference.empty())
+    {
+      this->Reference = numbersOf<Images>(this->Level.reference);
+    }
+    else if (this->Rest.empty())
+    {
+      this->Rest = numbersOf<Images>(this->Level.rest);
+    }
+    else if (!this->Samples)
+    {
+      this->Samples = std::make_unique<LevelSamples>(this->Level, this->Over);
+      this->Rest = this->Samples->read(this->Rest, Channels);
+      if constexpr (Images == 2)
+      {
+        this->Importance = this->Samples->read(importanceOf(this->Level), 1);
+      }
+      if constexpr (IsThin)
+      {
+        thinOut(*this->Samples);
+      }
+      this->Level = {};
+      this->Over = {};
+    }
+    return this->Samples != nullptr;
+  }
+
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
+  void restrictTo(const HalfSpace& half) override { this->Samples->restrictTo(half); }
 
 private:
   LevelVolumes Level; // while it is prepared
   Lattice Over;       // the same
-  std::unique_ptr<const LevelSamples> Samples;
-  std::vector<float> Rest;      // at the samples; while it is prepared, at the points
-  std::vector<float> Reference; // at the points
+  std::unique_ptr<LevelSamples> Samples;
+  std::vector<float> Rest;       // at the samples; while it is prepared, at the points
+  std::vector<float> Reference;  // at the points
+  std::vector<float> Importance; // of the samples; empty: 1 everywhere
 };
 
-bool SelfSimilarity::prepare()
-{
-  if (this->Reference.empty())
-  {
-    this->Reference = selfSimilarity(this->Level.reference);
-  }
-  else if (this->Rest.empty())
-  {
-    this->Rest = selfSimilarity(this->Level.rest);
-  }
-  else if (!this->Samples)
-  {
-    this->Samples = std::make_unique<const LevelSamples>(this->Level, this->Over);
-    this->Rest = this->Samples->read(this->Rest, Channels);
-    this->Level = {};
-    this->Over = {};
-  }
-  return this->Samples != nullptr;
-}
-
-CostAndForces SelfSimilarity::compare(const std::vector<glm::vec3>& displacements)
+template <int Images, bool IsThin>
+CostAndForces SelfSimilarity<Images, IsThin>::compare(const std::vector<glm::vec3>& displacements)
 {
   const LevelSamples& samples = *this->Samples;
   const Grid& grid = samples.rows.samples();
   std::vector<double> rowSums(samples.stretches.size(), 0.0);
   std::vector<double> rowWeights(samples.stretches.size(), 0.0);
+  std::vector<double> rowCounts(samples.stretches.size(), 0.0);
   ControlForces forces = samples.rows.visitRows(displacements, [&](const SampleRow& row) {
     const std::size_t rowNumber = static_cast<std::size_t>(row.k) * grid.dimensions.y + row.j;
     const LevelSamples::Stretch stretch = samples.stretches[rowNumber];
     samples.visitStretch(row, stretch, [&](const LevelSamples::Compared& sample) {
-      const float weight =
+      const float counted =
         sample.weight * trilinear(samples.referenceWeights.values.data(), sample.at).value;
+      const float weight = Images == 2 ? counted * this->Importance[sample.number] : counted;
       if (weight > 0.0f)
       {
         float sums[Sums][Lanes] = {};
-        compareNumbers(&this->Rest[sample.number * Channels],
+        compareNumbers<Channels>(&this->Rest[sample.number * Channels],
           &this->Reference[sample.at.first * Channels], sample.at, sums);
         float force[ForceNumbers];
-        rowSums[rowNumber] +=
-          weight * forceOf(sums, samples.stepsPerMm, weight, sample.freedom, force);
+        rowSums[rowNumber] += weight / Images *
+          forceOf(sums, samples.stepsPerMm, weight / Images, sample.freedom, force);
         rowWeights[rowNumber] += weight;
+        rowCounts[rowNumber] += counted;
         LatticeRows::add(row, sample.taps, force);
       }
     });
     return stretch.first < stretch.last;
   });
   CostAndForces result = averaged(rowSums, rowWeights, std::move(forces));
-  result.possible = samples.possible;
+  constexpr double PointsOfSample = IsThin ? SamplesForOne : 1.0;
+  result.samples = PointsOfSample * std::accumulate(rowCounts.begin(), rowCounts.end(), 0.0);
+  result.possible = PointsOfSample * samples.possible;
   return result;
 }
 
-const Metric SelfSimilarityMetric{
-  // A position between points is read from all of them.
-  { SelfSimilaritySupport.along + 1, SelfSimilaritySupport.across + 1 },
-  SelfSimilarity::BytesPerPoint,
-  [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
-    return std::make_unique<SelfSimilarity>(std::move(level), lattice);
-  },
-};
+template <int Images, bool IsThin>
+std::unique_ptr<Comparison> made(LevelVolumes level, const Lattice& lattice)
+{
+  return std::make_unique<SelfSimilarity<Images, IsThin>>(std::move(level), lattice);
+}
+
+const Metric SelfSimilarityMetric = selfSimilarityMetric();
 
 // Where contrasts differ or slices are thick, self-similarity is least 0.4 to 0.6 mm beside the
 // right position. The local fit has no such bias, but finds positions from nearby only.
 const Metric QuadraticFit = quadraticFitMetric();
 
 constexpr double Converged = 1e-3; // a smaller gain comes from the noise
+
+// The last level begins nearly right, and may follow bends that are narrow.
+constexpr double LastStiffness = 0.7;
+}
+
+namespace
+{
+// A position between points is read from all of them; a gradient, from both sides of its point.
+constexpr Support PlainSupport{ SelfSimilaritySupport.along + 1, SelfSimilaritySupport.across + 1 };
+constexpr Support GradientSupport{ PlainSupport.along + 1, PlainSupport.across + 1 };
+}
+
+Metric selfSimilarityMetric()
+{
+  return { PlainSupport, SelfSimilarity<1, false>::BytesPerPoint, &made<1, false> };
+}
+
+Metric selfSimilarityWithGradients()
+{
+  return { GradientSupport, SelfSimilarity<2, false>::BytesPerPoint, &made<2, false> };
+}
+
+Metric thinSelfSimilarityWithGradients()
+{
+  return { GradientSupport, SelfSimilarity<2, true>::BytesPerPoint, &made<2, true> };
 }
 
 Similarity describeSelfSimilarity()
@@ -300,8 +415,10 @@ Similarity describeSelfSimilarity()
     "For volumes of any contrast. Compares self-similarity (SSC), and at the end how well a "
     "parabola of the volume's values explains the reference in small windows.";
   result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &SelfSimilarityMetric, 2.0 },
-    { &QuadraticFit, 1.5, 1.0, false, true } };
+    { &QuadraticFit, 1.5, 1.0, false, true, 1, LastStiffness } };
   result.plan.converged = Converged;
+  result.plan.check.halves = { &SelfSimilarityMetric, 4.0, 1.0, true };
+  result.plan.check.other = { &QuadraticFit, 4.0, 1.0, true };
   return result;
 }
 }

@@ -9,7 +9,7 @@
 #ifndef BrainShift_SelfSimilarity_h
 #define BrainShift_SelfSimilarity_h
 
-#include "Filters/Register/Volume.h"
+#include "Filters/Register/Similarity.h"
 
 namespace brainshift
 {
@@ -23,6 +23,18 @@ constexpr Support SelfSimilaritySupport{ SelfSimilarityDistance + SelfSimilarity
 
 /** The 12 numbers (0 to 1) of each point, interleaved. */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> selfSimilarity(const Volume& volume);
+
+/** The mean squared difference of the 12 numbers of both volumes. */
+Metric selfSimilarityMetric();
+
+/**
+ * The squared difference of the numbers of both volumes and of those of their gradients' lengths,
+ * half each. Samples count by the steepness of the volume.
+ */
+Metric selfSimilarityWithGradients();
+
+/** The same by a quarter of the samples: for a search, in a quarter of the time. */
+Metric thinSelfSimilarityWithGradients();
 }
 
 #endif

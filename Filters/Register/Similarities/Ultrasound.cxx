@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LC2 in small windows: the reference is ultrasound inside a fan. Speckle pulls each position in a
-// random direction; the six parameters of a rigid motion average it out, so the volume moves as
-// a whole before it bends.
+// The reference is ultrasound inside a fan. Speckle pulls each position in a random direction; the
+// six parameters of a rigid motion average it out, so the volume moves as a whole before it bends.
+// Self-similarity finds the position from several millimetres away; LC2 in small windows, whose
+// minimum is narrow, then makes it more exact. Neither is compared more than 1 mm apart: a sweep of
+// 40 ml has too few independent windows of that size, and chance decides.
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
+#include "Filters/Register/Similarities/SelfSimilarity.h"
+
+#include <utility>
 
 namespace brainshift
 {
@@ -11,7 +16,58 @@ namespace
 // Softer, the volume would fit the speckle by deformations that do not exist.
 constexpr double SpeckleStiffness = 5.0;
 
-const Metric UltrasoundMetric = linearFitWithGradients();
+// Costs of self-similarity differ more between positions than those of LC2.
+constexpr float LocalFitWeight = 2.0f;
+
+constexpr double LeastRivalGain = 0.015;
+
+constexpr double SpacingMm = 1.0;
+constexpr int KeptPositions = 3; // of a search from several starts
+
+const Metric Search = thinSelfSimilarityWithGradients();
+const Metric Whole = selfSimilarityWithGradients();
+const Metric LC2 = linearFitWithGradients();
+
+// The weighted mean of both costs.
+class BothCosts : public Comparison
+{
+public:
+  BothCosts(LevelVolumes level, const Lattice& lattice)
+    : First(Whole.make(level, lattice))
+    , Second(LC2.make(std::move(level), lattice))
+  {
+  }
+
+  bool prepare() override { return this->First->prepare() && this->Second->prepare(); }
+
+  CostAndForces compare(const std::vector<glm::vec3>& displacements) override
+  {
+    CostAndForces result = this->First->compare(displacements);
+    const CostAndForces more = this->Second->compare(displacements);
+    constexpr float Weights = 1.0f + LocalFitWeight;
+    result.cost = (result.cost + LocalFitWeight * more.cost) / Weights;
+    for (std::size_t i = 0; i < result.forces.size(); ++i)
+    {
+      result.forces[i] = (result.forces[i] + LocalFitWeight * more.forces[i]) / Weights;
+    }
+    return result;
+  }
+
+  void restrictTo(const HalfSpace& half) override
+  {
+    this->First->restrictTo(half);
+    this->Second->restrictTo(half);
+  }
+
+private:
+  std::unique_ptr<Comparison> First;
+  std::unique_ptr<Comparison> Second;
+};
+
+const Metric Fine{ Whole.support, Whole.bytesPerPoint + LC2.bytesPerPoint,
+  [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
+    return std::make_unique<BothCosts>(std::move(level), lattice);
+  } };
 }
 
 Similarity describeUltrasound()
@@ -19,14 +75,16 @@ Similarity describeUltrasound()
   Similarity result;
   result.name = "ultrasound";
   result.label = "Ultrasound";
-  result.tooltip =
-    "For a reference that is ultrasound. LC2 explains it by the volume and its edges. "
-    "The volume moves as a whole before it bends. Tested on simulated ultrasound only.";
+  result.tooltip = "For a reference that is ultrasound. Compares self-similarity (SSC) of both "
+                   "volumes and of their edges, and LC2. "
+                   "The volume moves as a whole before it bends.";
   result.overlapOf = "the ultrasound fan";
-  result.plan.levels = { { &UltrasoundMetric, 2.0, 1.0, true },
-    { &UltrasoundMetric, 1.0, 1.0, true }, { &UltrasoundMetric, 1.0 } };
+  result.plan.levels = { { &Search, SpacingMm, 1.0, true, false, KeptPositions },
+    { &Fine, SpacingMm, 1.0, true }, { &Fine, SpacingMm } };
   result.plan.stiffness = SpeckleStiffness;
   result.plan.fan = FanLimits{};
+  result.plan.check.halves = { &Search, SpacingMm, 1.0, true };
+  result.plan.check.rivalGain = LeastRivalGain; // LC2 has its say in the result already
   return result;
 }
 }

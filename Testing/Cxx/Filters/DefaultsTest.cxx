@@ -143,12 +143,24 @@ TEST(Defaults, OfRegistrationLiveInTheClass)
   const double* rotation = run->GetStartRotation();
   const double* translation = run->GetStartTranslation();
   const Defaults ofRun{
+    { "KeepFailed", { double(run->GetKeepFailed()) } },
     { "Similarity", { double(run->GetSimilarity()) } },
     { "StartRotation", { rotation[0], rotation[1], rotation[2] } },
     { "StartTranslation", { translation[0], translation[1], translation[2] } },
+    { "Starts", { double(run->GetStarts()) } },
     { "Stiffness", { run->GetStiffness() } },
   };
   EXPECT_EQ(defaultsIn("Filters/Proxies/RegistrationRun.xml"), ofRun);
+}
+
+TEST(RegistrationRun, TakesTheNearestNumberOfStarts)
+{
+  vtkNew<vtkRegistrationRun> run;
+  for (const int number : { -1, 0, 1, 8, 64, 65 })
+  {
+    run->SetStarts(number);
+    EXPECT_EQ(run->GetStarts(), std::clamp(number, 1, 64));
+  }
 }
 
 // Scripts set a similarity by its number.

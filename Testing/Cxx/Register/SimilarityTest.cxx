@@ -191,6 +191,28 @@ TEST_P(EachMetric, ForcesAreDerivatives)
   }
 }
 
+TEST_P(EachMetric, HalvesHaveTheSamplesOfTheWhole)
+{
+  const LevelVolumes volumes = level();
+  const Grid& grid = volumes.rest.grid;
+  const Lattice lattice = makeLattice(withDimensions(grid, { 6, 6, 6 }), 0);
+  const std::unique_ptr<Comparison> made = GetParam()->make(volumes, lattice);
+  while (!made->prepare())
+  {
+  }
+  const double whole = made->compare(lattice.displacements).samples;
+  HalfSpace half{ grid.direction[1], glm::dot(grid.direction[1], middle(grid)) };
+  made->restrictTo(half);
+  const double first = made->compare(lattice.displacements).samples;
+  half = { -half.normal, -half.offsetMm };
+  made->restrictTo(half);
+  const double second = made->compare(lattice.displacements).samples;
+  EXPECT_GT(std::min(first, second), 0.3 * whole);
+  EXPECT_NEAR(first + second, whole, 1e-3 * whole);
+  made->restrictTo({});
+  EXPECT_EQ(made->compare(lattice.displacements).samples, whole);
+}
+
 TEST_P(EachMetric, IsLeastWhereBothAgree)
 {
   const LevelVolumes volumes = level();

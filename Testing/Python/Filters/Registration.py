@@ -82,6 +82,24 @@ def test_align_finds_a_known_motion():
     assert numpy.allclose(found.rotation, compare.ReferenceRotation)
 
 
+def test_several_starts_find_what_is_farther():
+    rest = rest_volume()
+    moved = volume((200 - tissue(*places())).astype(numpy.float32), spacing=SPACING)
+    apart = []
+    for starts in (1, 32):
+        compare = simple.CompareVolumes(Input=rest, Reference=moved, ReferenceRotation=(0, 0, 60),
+                                        ReferenceTranslation=(20, -16, 8))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # it is farther than Align was tested for
+            found = brainshift.align(compare, starts=starts, keep_failed=True)
+        assert found.trust != "good", found
+        apart.append(numpy.abs([*compare.ReferenceRotation, *compare.ReferenceTranslation]).max())
+    assert apart[0] > 3.0 and apart[1] < 0.3, apart
+    for wrong in (0, 65, 1.5, True):
+        refuses(lambda of=wrong: brainshift.align(compare, starts=of),
+                f"starts is {wrong!r}; it must be a whole number from 1 to 64")
+
+
 def test_align_warns_beyond_what_was_tested():
     rest = rest_volume()
     compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(22, -12, 8))
@@ -219,6 +237,7 @@ def test_errors_leave_all_as_it_was():
             (lambda: brainshift.refine(bent, compare), "does not show this deformation"),
             (lambda: brainshift.refine(bent, rest, similarity="best"), "similarity is 'best'"),
             (lambda: brainshift.refine(bent, rest, stiffness=0.0), "Stiffness is 0"),
+            (lambda: brainshift.refine(bent, rest, starts=0), "starts is 0"),
             (lambda: brainshift.refine(bent, compare, cavity=rest), "has its own"),
             (lambda: brainshift.align(rest), "carries no reference")):
         refuses(call, words)
@@ -282,6 +301,62 @@ def test_what_the_cavity_covers_is_no_overlap():
                                     Cavity=volume(left, spacing=SPACING))
     refuses(lambda: brainshift.align(compare),
             "has a partner in the reference outside the cavity; at least 25 % must")
+
+
+def noise_volume():
+    """A volume that has nothing in common with `rest_volume`."""
+    values = numpy.random.default_rng(1).normal(0, 1, (SIDE,) * 3)
+    return volume(values.astype(numpy.float32), spacing=SPACING)
+
+
+def test_a_failed_result_changes_nothing():
+    rest = rest_volume()
+    strokes = tuple(brainshift.soft(MIDDLE, (2, 0, 0), 30.0))
+    bent = simple.FreeFormDeformation(Input=rest, Strokes=strokes)
+    compare = simple.CompareVolumes(Input=bent, Reference=noise_volume())
+    for call, kind in ((lambda **how: brainshift.refine(bent, compare, **how),
+                        brainshift.Refinement),
+                       (lambda **how: brainshift.align(compare, **how), brainshift.Alignment)):
+        try:
+            call()
+        except brainshift.RegistrationFailed as failed:
+            found, reason = failed.found, str(failed)
+        else:
+            raise AssertionError("no error")
+        assert isinstance(found, kind) and found.trust == "failed" and found.finished, found
+        assert "failed its checks" in reason and "keep_failed=True" in reason, reason
+        assert found.warnings and all(one.endswith(".") for one in found.warnings), found.warnings
+        assert tuple(bent.Strokes) == strokes and not bent.Lattice, bent.Lattice
+        assert list(compare.ReferenceTranslation) == [0.0, 0.0, 0.0], compare.ReferenceTranslation
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            kept = call(keep_failed=True)
+        assert kept.trust == "failed" and kept.warnings == found.warnings, kept
+        assert any(kept.warnings[0] in str(one.message) for one in said), said
+        bent.Lattice, bent.Strokes = None, strokes
+
+
+def test_a_right_result_is_trusted():
+    rest = rest_volume()
+    bent = simple.FreeFormDeformation(Input=rest)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = brainshift.refine(bent, bent_reference(rest))
+        assert found.trust == "good" and found.warnings == [] and "good" in repr(found), found
+        compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(3, 2, 0))
+        found = brainshift.align(compare)
+        assert found.trust == "good" and found.warnings == [], found
+    stopped = brainshift.refine(bent, rest, callback=lambda progress: False)
+    assert stopped.trust == "unchecked" and "stopped, unchecked" in repr(stopped), stopped
+
+
+def test_a_mirrored_reference_is_named():
+    rest = rest_volume()
+    mirrored = volume(tissue(*places())[:, :, ::-1].astype(numpy.float32), spacing=SPACING)
+    compare = simple.CompareVolumes(Input=rest, Reference=mirrored)
+    refuses(lambda: brainshift.align(compare), "if it is mirrored from left to right")
+    refuses(lambda: brainshift.refine(simple.FreeFormDeformation(Input=rest), mirrored),
+            "if it is mirrored from left to right")
 
 
 def test_without_overlap_nothing_changes():

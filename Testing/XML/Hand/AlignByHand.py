@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the panel's button Align moves the reference of a Compare Volumes to its place with
 pictures on the way; that Stop keeps what is reached as one step to undo, and Escape moves it back
-without one; that a state has the result; that a hand comes first; and that it ends with a sentence
-when something is missing, is changed or goes away.
+without one; that a failed result moves nothing unless the user wants it; that a state has the
+result; that a hand comes first; and that it ends with a sentence when something is missing, is
+changed or goes away.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
@@ -94,9 +95,10 @@ def the_picture_follows():
     begin()
     window.until(lambda: said().startswith(("Step ", "Finished")), "words")
     assert pictures() > before, "no picture"
-    window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
+    window.until(lambda: said().startswith("Finished"), "an end", 120.0)
     assert apart() < NEAR, motion()
-    for words in ("Mutual information: ", " nats before", " mm and ", " degrees", " % of the vol"):
+    for words in ("Mutual information: ", " nats before", " mm and ", " degrees", " % of the vol",
+                  "Its checks found no fault"):
         assert words in said(), (words, said())
     assert not warned(), warned()
     assert undo_labels() == (["Align"] + undo)[:10], undo_labels()
@@ -118,7 +120,7 @@ def it_ends_the_flicker():
     shown = str(compare().Show.GetData())
     begin()
     assert not hand.is_checked(FLICKER) and str(compare().Show.GetData()) == "Both", shown
-    window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
+    window.until(lambda: said().startswith("Finished"), "an end", 120.0)
     window.action("Undo")
     window.action("Redo")
     assert str(compare().Show.GetData()) == "Both", compare().Show
@@ -142,6 +144,15 @@ def stop_keeps_it():
     assert said().startswith("Stopped after "), said()
     assert motion() == reached != before, (motion(), reached)
     assert undo_labels() == (["Align"] + undo)[:10], undo_labels()
+    window.action("Undo")
+    assert motion() == before, motion()
+    # While the result is checked, too: then it has no grade.
+    begin()
+    window.until(lambda: "Checking the result" in said(), "the checks", 60.0)
+    reached = motion()
+    assert hand.click("BrainShiftAlignStop") and not is_running()
+    assert said().startswith("Stopped after ") and "was not checked" in said(), said()
+    assert motion() == reached != before and not warned(), (motion(), warned())
     window.action("Undo")
     assert motion() == before, motion()
     # And before the first step.
@@ -191,6 +202,45 @@ def too_far_is_said():
     assert motion() == before and undo_labels() == undo, motion()
 
 
+def a_failed_result_changes_nothing():
+    """A mirrored reference fails; the user may keep the result all the same."""
+    rest = compare().Reference
+    with window.unrecorded():
+        mirrored = simple.Wavelet(registrationName="mirrored", WholeExtent=[0, SIDE] * 3,
+                                  Center=[SIDE, 0, 0], XFreq=-20, YFreq=17, ZFreq=23)
+        compare().Reference = mirrored
+        compare().ReferenceRotation = compare().ReferenceTranslation = [0.0, 0.0, 0.0]
+        simple.SetActiveSource(compare())
+        simple.Render()
+    hand.wait(200)
+    undo, before = undo_labels(), motion()
+    assert not hand.is_visible("BrainShiftAlignKeep")
+    assert hand.click("BrainShiftAlign")
+    window.until(lambda: hand.is_visible("BrainShiftAlignKeep"), "a failed result", 120.0)
+    for words in ("failed its checks", "if it is mirrored from left to right", "previous position"):
+        assert words in warned(), (words, warned())
+    assert motion() == before and undo_labels() == undo, motion()
+    assert hand.click("BrainShiftAlignKeep")
+    hand.wait(100)
+    assert motion() != before and not hand.is_visible("BrainShiftAlignKeep"), motion()
+    assert said().startswith("Finished") and "failed its checks" in said(), said()
+    assert "if it is mirrored" in warned(), warned()
+    assert undo_labels() == (["Align"] + undo)[:10], undo_labels()
+    window.action("Undo")
+    assert motion() == before, motion()
+    # Once the start has changed, the result would no longer follow from it.
+    assert hand.click("BrainShiftAlign")
+    window.until(lambda: hand.is_visible("BrainShiftAlignKeep"), "a failed result", 120.0)
+    with window.unrecorded():
+        compare().ReferenceTranslation = [1.0, 0.0, 0.0]
+        hand.wait(100)
+        assert not hand.is_visible("BrainShiftAlignKeep"), "kept from another start"
+        compare().Reference = rest
+        simple.Delete(mirrored)
+        simple.SetActiveSource(compare())
+    hand.wait(200)
+
+
 def a_state_keeps_it():
     move_away()
     begin()
@@ -228,4 +278,4 @@ window.main("AlignByHand", [
     (set_up,), (the_picture_follows,), (it_is_one_step,), (it_ends_the_flicker,),
     (escape_moves_it_back,),
     (stop_keeps_it,), (a_hand_comes_first,), (others_have_their_way,), (too_far_is_said,),
-    (a_state_keeps_it,), (all_may_go,)])
+    (a_failed_result_changes_nothing,), (a_state_keeps_it,), (all_may_go,)])

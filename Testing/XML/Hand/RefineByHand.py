@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the panel's section Refine bends a volume step by step with a picture after each;
 that Pause holds it, Stop keeps what is reached as one step to undo, and Escape puts base and
-strokes back without one; that a state has the result; that a hand comes first; that a pull follows;
-and that it ends with a sentence when something is missing or goes away.
+strokes back without one; that a failed result changes nothing unless the user wants it; that
+landmarks judge it; that a state has the result; that a hand comes first; that a pull follows; and
+that it ends with a sentence when something is missing or goes away.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
@@ -12,14 +13,14 @@ import brainshift
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import scratch
+from brainshift_testing import scratch, volume
 from paraview import simple
 from window_testing import deformation, undo_labels
 
 SIDE = 60  # voxels and mm
-POINTS = numpy.random.default_rng(5).uniform(10, SIDE - 10, (40, 3))
+POINTS = numpy.random.default_rng(5).uniform(18, SIDE - 18, (40, 3))
 HAND = tuple(brainshift.soft((30, 30, 30), (0.3, 0.2, -0.2), 40.0))
-FILE = scratch("after.vti")
+REST, FILE, NOISE = (scratch(f"{name}.vti") for name in ("rest", "after", "noise"))
 kept = {}
 
 
@@ -61,14 +62,30 @@ def begin():
     window.until(lambda: step() >= 2, "two steps")
 
 
-def write_reference():
-    """The wavelet as known strokes bend it. A file, for each filter here would have a panel."""
+def write(values, file):
+    source = volume(values.astype(numpy.float32))
+    simple.SaveData(file, proxy=source)
+    simple.Delete(source)
+
+
+def write_rest():
+    """Folds, longer than the deformation, in a ball."""
+    z, y, x = numpy.indices((SIDE + 1,) * 3) - SIDE / 2.0
+    folds = (numpy.sin(0.31 * x + 0.1 * y) + numpy.sin(0.27 * y - 0.12 * z)
+             + numpy.sin(0.29 * z + 0.08 * x) + numpy.sin(0.11 * (x + y + z)))
+    away = numpy.sqrt((x / 26.0) ** 2 + (y / 28.0) ** 2 + (z / 27.0) ** 2)
+    write((120 + 25 * folds) * numpy.clip(6 * (1 - away), 0, 1), REST)
+
+
+def write_references():
+    """The volume as known strokes bend it, and noise. Files: a filter here would have a panel."""
     strokes = brainshift.soft((30, 30, 30), (1.5, -1.2, 1.5), 40.0)
     bent = simple.FreeFormDeformation(Input=simple.FindSource("rest"), Strokes=strokes)
     baked = simple.BakeDeformation(Input=bent)
     baked.UpdatePipeline()
     kept["truth"] = numpy.array(brainshift.deformed_from_rest(bent, POINTS))
     simple.SaveData(FILE, proxy=baked)
+    write(numpy.random.default_rng(1).normal(0, 1, (SIDE + 1,) * 3), NOISE)
     simple.Delete(baked)
     simple.Delete(bent)
 
@@ -78,16 +95,16 @@ def open_reference():
 
 
 def set_up():
-    rest = simple.Wavelet(registrationName="rest", WholeExtent=[0, SIDE] * 3,
-                          XFreq=20, YFreq=17, ZFreq=23)  # waves longer than the bend
+    write_rest()
+    rest = simple.OpenDataFile(REST, registrationName="rest")
     view = simple.GetActiveViewOrCreate("RenderView")
-    write_reference()
+    write_references()
     open_reference()
     bent = simple.FreeFormDeformation(registrationName="bent", Input=rest, Strokes=HAND)
     display = simple.Show(bent, view)
     display.SetRepresentationType("Deformed Volume")
-    simple.ColorBy(display, ("POINTS", "RTData"))
-    simple.GetOpacityTransferFunction("RTData").Points = [37, 1, 0.5, 0, 277, 1, 0.5, 0]
+    simple.ColorBy(display, ("POINTS", "Intensity"))
+    simple.GetOpacityTransferFunction("Intensity").Points = [30, 0, 0.5, 0, 60, 1, 0.5, 0]
     simple.SetActiveSource(bent)
     simple.ResetCamera(view)
     simple.Render(view)
@@ -143,7 +160,7 @@ def stop_keeps_it():
     for _ in range(20):
         hand.wait(20)
     assert hand.in_sight("BrainShiftRefineSaid"), "the user must scroll to see what came out"
-    for words in ("Cost: ", " mm at most", "Jacobian", "guard"):
+    for words in ("Cost: ", " mm at most", "Jacobian", "guard", "was not checked"):
         assert words in said(), (words, said())
     assert not hand.label("BrainShiftRefineWarning"), hand.label("BrainShiftRefineWarning")
     assert undo_labels() == (["Refine"] + kept["undo"])[:10], undo_labels()
@@ -194,7 +211,8 @@ def it_ends_by_itself():
     hand.wait(100)
     assert hand.choose("BrainShiftRefineReference", "compared")
     begin()
-    window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
+    window.until(lambda: said().startswith("Finished"), "an end", 120.0)
+    assert "Its checks found no fault" in said(), (said(), hand.label("BrainShiftRefineWarning"))
     panel_stays()
     assert undo_labels() == (["Refine"] + undo)[:10], undo_labels()
     assert len(lattices()) == 1, lattices()
@@ -205,6 +223,70 @@ def it_ends_by_itself():
     assert tuple(deformation().Lattice.ControlPoints) == was, "not the earlier result"
     window.action("Redo")
     assert tuple(deformation().Lattice.ControlPoints) != was
+
+
+def a_failed_result_changes_nothing():
+    """Noise has nothing in common with the volume."""
+    with window.unrecorded():
+        simple.OpenDataFile(NOISE, registrationName="other").UpdatePipeline()
+        simple.SetActiveSource(deformation())
+    hand.wait(100)
+    was = what_is()
+    assert hand.choose("BrainShiftRefineReference", "other")
+    assert hand.click("BrainShiftRefine")
+    window.until(lambda: hand.label("BrainShiftRefineWarning"), "a sentence", 120.0)
+    told = hand.label("BrainShiftRefineWarning")
+    assert "failed its checks" in told and "Nothing was changed." in told, told
+    assert what_is() == was, "something has changed"
+    window.until(lambda: hand.is_visible("BrainShiftRefineKeep"), "a way to keep it")
+    assert hand.click("BrainShiftRefineKeep")
+    hand.wait(100)
+    assert said().startswith("Finished") and "failed its checks" in said(), said()
+    assert hand.label("BrainShiftRefineWarning") and not hand.is_visible("BrainShiftRefineKeep")
+    assert undo_labels() == (["Refine"] + was[-1])[:10] and lattices(), undo_labels()
+    window.action("Undo")
+    assert what_is()[:3] == was[:3], "undo left something"
+    with window.unrecorded():
+        simple.Delete(simple.FindSource("other"))
+        simple.SetActiveSource(deformation())
+    hand.wait(100)
+    assert hand.choose("BrainShiftRefineReference", "compared")
+
+
+def landmarks_judge_it():
+    """The fit goes, and with it the table of landmarks; the result shows their errors."""
+    truth, rest = kept["truth"][:5], POINTS[:5]
+    pairs = numpy.hstack([rest, truth, [[1], [1], [1], [1], [0]]])
+    former = deformation().Lattice
+    with window.unrecorded():
+        fit = simple.FitDeformation(registrationName="fit", Input=simple.FindSource("rest"),
+                                    LandmarkPairs=pairs.ravel().tolist())
+        deformation().Lattice = fit
+        deformation().Strokes = HAND
+        simple.SetActiveSource(deformation())
+        before = numpy.linalg.norm(field()[:5] - truth, axis=1)
+    window.until(lambda: hand.cell("BrainShiftLandmarks", 4, 0), "the list of landmarks")
+    assert hand.choose("BrainShiftRefineReference", "after")
+    begin()
+    assert hand.click("BrainShiftRefineStop") and said().startswith("Stopped"), said()
+    table = hand.label("BrainShiftRefineLandmarks")
+    found = numpy.array(re.findall(r">(\d+\.\d\d)", table), float).reshape(-1, 2)
+    now = numpy.linalg.norm(field()[:5] - truth, axis=1)
+    errors = numpy.stack([before, now], axis=1)
+    expected = numpy.vstack([errors.mean(axis=0), errors.max(axis=0), errors])
+    assert numpy.abs(found - expected).max() < 0.0051, (found, expected)
+    assert table.count("*") == 5 and now.mean() < before.mean(), (table, before, now)
+    with window.unrecorded():
+        deformation().Lattice = former
+        deformation().Strokes = []
+        simple.Delete(fit)
+        for name, number in simple.GetSources():
+            source = simple.FindSource(name)
+            if name.startswith("RefinedLattice") and source.SMProxy is not former.SMProxy:
+                simple.Delete(source)
+        simple.SetActiveSource(deformation())
+    hand.wait(200)
+    assert hand.choose("BrainShiftRefineReference", "compared")
 
 
 def a_state_keeps_it():
@@ -266,7 +348,7 @@ def a_pull_follows_it():
     assert 1.0 < way.max() < 15.0, way  # from where the refinement put it, not from rest
     pull = numpy.array(list(fit.Pulls)[:7])
     with window.unrecorded():
-        alone = simple.FreeFormDeformation(Input=simple.FindSource("rest"), Lattice=before)
+        alone = simple.FreeFormDeformation(Input=deformation().Input, Lattice=before)
         was = brainshift.deformed_from_rest(alone, [pull[:3]])[0]
         simple.Delete(alone)
         simple.SetActiveSource(deformation())
@@ -360,6 +442,6 @@ def the_session_may_go():
 window.main("RefineByHand", [
     (set_up,), (closed_until_it_is_wanted,), (the_picture_follows,), (pause_holds_it,),
     (stop_keeps_it,), (it_is_one_step,), (escape_puts_all_back,), (it_ends_by_itself,),
-    (a_state_keeps_it,), (a_hand_comes_first,), (a_pull_follows_it,), (others_have_their_way,),
-    (what_is_wrong_is_said,), (a_reference_may_go,), (the_deformation_may_go,),
-    (the_session_may_go,)])
+    (a_failed_result_changes_nothing,), (landmarks_judge_it,), (a_state_keeps_it,),
+    (a_hand_comes_first,), (a_pull_follows_it,), (others_have_their_way,), (what_is_wrong_is_said,),
+    (a_reference_may_go,), (the_deformation_may_go,), (the_session_may_go,)])

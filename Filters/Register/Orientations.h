@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Finds whether a reference matches a volume better if it is rotated by right angles, mirrored or
+/// moved.
+///
+/// A search that begins in a wrong orientation ends in some position, and its information does not
+/// tell that there is a better one. All 48 orientations along the axes of the volume are tried on a
+/// coarse level, and the best ones on a finer level.
+#ifndef BrainShift_Orientations_h
+#define BrainShift_Orientations_h
+
+#include "Filters/Register/Alignment.h"
+
+#include <string>
+
+namespace brainshift
+{
+/** An orientation of the reference, and its mutual information with the volume. */
+struct Orientation
+{
+  glm::dmat3 matrix{ 1.0 }; ///< along the axes of the volume: 0, 1 and -1
+  bool isMoved = false;     ///< the search began where the middles of the tissue meet
+  double information = 0.0; ///< nats, on the finer level, or on the coarse one while it is tried
+};
+
+/** All 48 products of right angles and mirrors. The first one changes nothing. */
+BRAINSHIFT_DEFORMATION_EXPORT const std::vector<glm::dmat3>& allOrientations();
+
+class BRAINSHIFT_DEFORMATION_EXPORT OrientationSearch
+{
+public:
+  /**
+   * @param pair   both in their present positions; lives longer than the search
+   * @param bent   the deformation of the volume; lives longer than the search
+   */
+  OrientationSearch(const RegisteredPair& pair, const Lattice& bent);
+
+  /** Reads one volume or tries one orientation. False: all were tried. */
+  bool step();
+
+  double done() const; ///< fraction, 0 to 1
+
+  /** The reference as it is, and the best other position; once it is finished. */
+  const Orientation& asItIs() const { return this->Finalists.front(); }
+  const Orientation& bestOther() const { return this->Finalists[1]; }
+
+private:
+  double informationOf(const Orientation& one, const AlignmentSettings& settings) const;
+  void read();
+  void choose();
+
+  const RegisteredPair& Whole;
+  const Lattice& Bent;
+  RegisteredPair Pair;               // with few voxels
+  glm::dvec3 RestMiddle{ 0.0 };      // of the tissue, mm, world
+  glm::dvec3 ReferenceMiddle{ 0.0 }; // the same of the reference
+  std::vector<Orientation> Tried;
+  std::vector<Orientation> Finalists; // the first one is the reference as it is
+  std::size_t Refined = 0;
+};
+
+/** In words what is to be done to a reference: "rotated by 180 degrees about (0, 0, 1)". */
+BRAINSHIFT_DEFORMATION_EXPORT std::string orientationText(
+  const glm::dmat3& matrix, const glm::dmat3& axes);
+}
+
+#endif

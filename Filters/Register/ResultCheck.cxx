@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Register/ResultCheck.h"
+
+#include <limits>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int MostSteps = 20;          // of a run
+constexpr double FarthestStart = 8.0;  // mm and degrees from the result
+constexpr double LeastRivalMm = 2.0;   // a place that is nearer is the same
+constexpr double LeastSamples = 800.0; // of a run over all of the compared part
+constexpr double LeastOfHalf = 200.0;  // samples
+constexpr double Finer = 0.5;          // times the spacing, if there are too few samples
+}
+
+ResultCheck::ResultCheck(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan)
+  : Pair(std::move(pair))
+  , Plan(plan)
+  , Region(Pair, plan)
+  , Result(result)
+  , Now(plan.check.halves)
+{
+  this->Run = this->Now.metric ? 0 : Runs;
+}
+
+const RefinementLevel& ResultCheck::wanted() const
+{
+  return this->isByOther() ? this->Plan.check.other : this->Plan.check.halves;
+}
+
+bool ResultCheck::step()
+{
+  if (this->Run == Runs)
+  {
+    return false;
+  }
+  if (!this->Region.isFound())
+  {
+    this->Region.find(this->Pair.reference, this->Result.grid);
+  }
+  else if (!this->Level || !this->Level->isPrepared())
+  {
+    this->prepare();
+  }
+  else if (!this->Step)
+  {
+    this->begin();
+  }
+  else
+  {
+    this->takeStep();
+  }
+  return this->Run < Runs;
+}
+
+void ResultCheck::prepare()
+{
+  if (!this->Level)
+  {
+    this->Level = std::make_unique<PyramidLevel>(this->Pair, this->Region, this->Now, this->Result);
+    return;
+  }
+  this->Level->prepare();
+}
+
+void ResultCheck::begin()
+{
+  RefinementSettings settings;
+  settings.plan = this->Plan;
+  settings.guards = false; // nothing of it is kept
+  settings.samples = 0;
+  this->State = std::make_unique<RefinementState>(this->Result, settings);
+  this->State->setStiffness(1.0);
+  this->Steps = 0;
+  if (!this->isHalf() && !this->isByOther())
+  {
+    this->State->moveTo(
+      this->State->startNear(this->Region.middle(), this->Run - HalfRuns, FarthestStart));
+  }
+  if (this->isByOther() || this->Weights.empty())
+  {
+    this->Level->restrictTo({});
+    const CostAndForces all = this->Level->compare(this->State->controls);
+    if (this->isTooCoarse(all.samples))
+    {
+      return;
+    }
+    if (this->Weights.empty())
+    {
+      this->weigh(all.forces);
+    }
+  }
+  this->Level->restrictTo(this->isHalf() ? this->half() : HalfSpace{});
+  CostAndForces here = this->Level->compare(this->State->controls);
+  if (here.samples < LeastOfHalf)
+  {
+    this->leaveOut();
+    return;
+  }
+  this->State->beginLevel(here, here);
+  this->Step = makeStep(this->Plan, this->Now, this->Level->grid());
+}
+
+// Makes the level finer, or gives its metric up where it cannot be.
+bool ResultCheck::isTooCoarse(double samples)
+{
+  if (samples >= LeastSamples)
+  {
+    return false;
+  }
+  RefinementLevel finer = this->Now;
+  finer.spacingMm *= Finer;
+  const bool isFiner =
+    this->Region.grid(finer).dimensions != this->Region.grid(this->Now).dimensions;
+  this->Level = nullptr;
+  if (isFiner)
+  {
+    this->Now = finer;
+    return true;
+  }
+  this->goTo(this->isByOther() ? Runs : OtherRun);
+  return true;
+}
+
+HalfSpace ResultCheck::half() const
+{
+  HalfSpace half;
+  half.normal = this->Pair.rest.grid.direction[this->Run / 2];
+  half.normal *= this->Run % 2 ? -1.0 : 1.0;
+  half.offsetMm = glm::dot(half.normal, this->Middle);
+  return half;
+}
+
+void ResultCheck::weigh(const ControlForces& forces)
+{
+  const Grid& grid = this->Result.grid;
+  double sum = 0.0;
+  for (int k = 0; k < grid.dimensions.z; ++k)
+  {
+    for (int j = 0; j < grid.dimensions.y; ++j)
+    {
+      for (int i = 0; i < grid.dimensions.x; ++i)
+      {
+        const float* force = &forces[this->Weights.size() * ForceNumbers];
+        const double weight = static_cast<double>(force[3]) + force[4] + force[5];
+        this->Weights.push_back(weight);
+        this->Middle += weight * grid.worldFromGrid({ i, j, k });
+        sum += weight;
+      }
+    }
+  }
+  this->Middle /= std::max(sum, std::numeric_limits<double>::min());
+}
+
+void ResultCheck::takeStep()
+{
+  const StepOutcome outcome = this->Step->attempt(*this->State, *this->Level);
+  if (outcome == StepOutcome::Settled || ++this->Steps == MostSteps)
+  {
+    this->finishRun();
+  }
+}
+
+// The mean over the control points that samples move.
+double ResultCheck::motionMm(const Controls& a, const Controls& b) const
+{
+  double sum = 0.0;
+  double weights = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    sum += this->Weights[i] * glm::distance(a[i], b[i]);
+    weights += this->Weights[i];
+  }
+  return weights > 0.0 ? sum / weights : 0.0;
+}
+
+void ResultCheck::leaveOut()
+{
+  this->State->controls.clear();
+  this->finishRun();
+}
+
+void ResultCheck::finishHalf(const Controls& found)
+{
+  if (this->Run % 2 == 0)
+  {
+    this->FirstHalf = found;
+  }
+  else if (!found.empty() && !this->FirstHalf.empty())
+  {
+    this->SumOfHalves += this->motionMm(found, this->FirstHalf);
+    ++this->Axes;
+    this->Figures.halvesMm = this->SumOfHalves / this->Axes;
+  }
+}
+
+void ResultCheck::finishRival()
+{
+  const double cost = this->State->known.cost;
+  if (this->Run == HalfRuns)
+  {
+    this->Cost = cost;
+    return;
+  }
+  const double mm = this->motionMm(this->State->controls, this->State->startControls);
+  if (this->Cost <= 0.0)
+  {
+    return;
+  }
+  const double gain = cost / this->Cost - 1.0;
+  if (mm > LeastRivalMm && (!this->Figures.rivalGain || gain < *this->Figures.rivalGain))
+  {
+    this->Figures.rivalGain = gain;
+    this->Figures.rivalMm = mm;
+  }
+}
+
+void ResultCheck::finishRun()
+{
+  const Controls& found = this->State->controls;
+  if (this->isHalf())
+  {
+    this->finishHalf(found);
+  }
+  else if (!found.empty() && this->isByOther())
+  {
+    this->Figures.otherMm = this->motionMm(found, this->State->startControls);
+  }
+  else if (!found.empty())
+  {
+    this->finishRival();
+  }
+  this->goTo(this->Run + 1);
+}
+
+// Runs that the plan does not ask for are left out.
+void ResultCheck::goTo(int run)
+{
+  const CheckPlan& check = this->Plan.check;
+  this->Run = run == HalfRuns && check.rivalGain <= 0.0 ? OtherRun : run;
+  if (this->isByOther() && !check.other.metric)
+  {
+    this->Run = Runs;
+  }
+  if (this->Run >= OtherRun)
+  {
+    this->Level = nullptr; // another metric, or the end
+    this->Now = this->wanted();
+  }
+  this->Step = nullptr;
+  this->State = nullptr;
+}
+}

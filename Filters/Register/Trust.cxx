@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Register/Trust.h"
+
+#include "Common/Numbers.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+// A result fails by one check alone if its figure is so many times its limit.
+constexpr double FarBeyond = 1.5;
+
+// The least gain of mutual information by another orientation, as a fraction.
+constexpr double LeastGain = 0.1;
+
+// The least fraction by which the cost is less far within the outline than beside a right result.
+constexpr double LeastGainInside = 0.2;
+
+std::string inMm(double mm)
+{
+  return roundedText(mm) + " mm";
+}
+
+double timesLimit(const std::optional<double>& figure, double limit)
+{
+  return figure ? *figure / limit : 0.0;
+}
+}
+
+const char* nameOf(Trust trust)
+{
+  constexpr const char* Names[] = { "unchecked", "good", "doubtful", "failed" };
+  return Names[static_cast<int>(trust)];
+}
+
+void Verdict::lower(Trust to, const std::string& reason)
+{
+  this->trust = std::max(this->trust, to);
+  this->reasons.push_back(reason);
+}
+
+Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
+{
+  Verdict verdict;
+  if (!figures.halvesMm && !figures.otherMm)
+  {
+    verdict.reasons.push_back("The result was not checked, because too little was compared.");
+    return verdict;
+  }
+  verdict.trust = Trust::Good;
+  const double halves = timesLimit(figures.halvesMm, limits.halvesMm);
+  const double other = timesLimit(figures.otherMm, limits.otherMm);
+  const bool hasFailed = (halves > 1.0 && other > 1.0) || std::max(halves, other) > FarBeyond;
+  const Trust trust = hasFailed ? Trust::Failed : Trust::Doubtful;
+  if (halves > 1.0)
+  {
+    verdict.lower(trust,
+      "Halves of what was compared, registered apart from the result, end " +
+        inMm(figures.halvesMm.value_or(0.0)) +
+        " from each other on average; right results differ by up to " + inMm(limits.halvesMm) +
+        ".");
+  }
+  if (other > 1.0)
+  {
+    verdict.lower(trust,
+      "Another similarity moves the result by " + inMm(figures.otherMm.value_or(0.0)) +
+        " on average; it moves right results by up to " + inMm(limits.otherMm) + ".");
+  }
+  if (figures.rivalGain && *figures.rivalGain < limits.rivalGain)
+  {
+    verdict.lower(Trust::Failed,
+      "A search from places nearby ends " + inMm(figures.rivalMm) +
+        " away on average, where the volumes match " +
+        (*figures.rivalGain < 0.0 ? "better." : "nearly as well.") +
+        " Right results match clearly better than any other place. Start nearer to the right "
+        "place, or from several places.");
+  }
+  return verdict;
+}
+
+std::string orientationReason(const OrientationSearch& search, const glm::dmat3& axes)
+{
+  const double now = search.asItIs().information;
+  const double best = search.bestOther().information;
+  if (best <= (1.0 + LeastGain) * now)
+  {
+    return {};
+  }
+  return "The reference matches the volume better if it is " +
+    orientationText(search.bestOther().matrix, axes) + ": mutual information " + roundedText(best) +
+    " nats in place of " + roundedText(now) +
+    ". Check in which orientation the two volumes were read.";
+}
+
+std::string insideReason(const InsideCheck& check)
+{
+  const std::optional<double> gain = check.gain();
+  if (!gain || *gain > LeastGainInside)
+  {
+    return {};
+  }
+  return "Far within the outlines the volumes match no better than " + inMm(check.besideMm()) +
+    " beside the result: the cost is " + roundedText(100.0 * *gain) +
+    " percent less; for right results it is " + roundedText(100.0 * LeastGainInside) +
+    " percent or more. The tissue may be another one.";
+}
+
+Verification::Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan)
+  : Check(std::move(pair), result, plan)
+  , Limits(plan.check)
+  , IsOfHeads(!plan.fan)
+  , Result(result)
+{
+}
+
+bool Verification::finishCheck()
+{
+  this->Found = verdictOf(this->Check.figures(), this->Limits);
+  this->IsFinished = !this->IsOfHeads;
+  if (this->IsOfHeads)
+  {
+    this->Inside =
+      std::make_unique<InsideCheck>(this->Check.pair(), this->Result, this->Limits.halves);
+  }
+  return this->IsOfHeads;
+}
+
+bool Verification::finishInside()
+{
+  const std::string reason = insideReason(*this->Inside);
+  if (!reason.empty())
+  {
+    this->Found.lower(Trust::Doubtful, reason);
+  }
+  this->Search = std::make_unique<OrientationSearch>(this->Check.pair(), this->Result);
+  return true;
+}
+
+void Verification::finishSearch()
+{
+  const std::string reason =
+    orientationReason(*this->Search, this->Check.pair().rest.grid.direction);
+  if (!reason.empty())
+  {
+    this->Found.lower(Trust::Failed, reason);
+  }
+  this->IsFinished = true;
+}
+
+bool Verification::step()
+{
+  if (this->IsFinished)
+  {
+    return false;
+  }
+  if (!this->Inside)
+  {
+    return this->Check.step() || this->finishCheck();
+  }
+  if (!this->Search)
+  {
+    return this->Inside->step() || this->finishInside();
+  }
+  if (this->Search->step())
+  {
+    return true;
+  }
+  this->finishSearch();
+  return false;
+}
+
+double Verification::done() const
+{
+  constexpr double OfCheck = 0.5;
+  const double searched = this->Search ? this->Search->done() : 0.0;
+  return this->IsFinished ? 1.0 : OfCheck * this->Check.done() + (1.0 - OfCheck) * searched;
+}
+}

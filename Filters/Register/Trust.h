@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// How far the result of a registration may be trusted, from checks of itself.
+///
+/// The checks need no truth, and they can be wrong: the limits come from simulations, and the page
+/// of the documentation has the rates of failures found and of false alarms.
+#ifndef BrainShift_Trust_h
+#define BrainShift_Trust_h
+
+#include "Filters/Register/InsideCheck.h"
+#include "Filters/Register/Orientations.h"
+#include "Filters/Register/ResultCheck.h"
+
+namespace brainshift
+{
+enum class Trust
+{
+  Unchecked, ///< it was stopped, or too little was compared
+  Good,
+  Doubtful, ///< a check failed; look at the result
+  Failed    ///< the result is wrong, by several checks or by far
+};
+
+/** For scripts and panels: "unchecked", "good", "doubtful", "failed". */
+BRAINSHIFT_DEFORMATION_EXPORT const char* nameOf(Trust trust);
+
+struct Verdict
+{
+  Trust trust = Trust::Unchecked;
+  std::vector<std::string> reasons; ///< sentences; empty for a good result
+
+  /** Adds a reason. The trust becomes the given one, if that is worse. */
+  void lower(Trust to, const std::string& reason);
+};
+
+/** The verdict of the checks of a result. */
+BRAINSHIFT_DEFORMATION_EXPORT Verdict verdictOf(
+  const CheckFigures& figures, const CheckPlan& limits);
+
+/** Why the match far within the outlines is too weak: a sentence. Empty if it is not. */
+BRAINSHIFT_DEFORMATION_EXPORT std::string insideReason(const InsideCheck& check);
+
+/** Why a reference is in a wrong orientation: a sentence. Empty if no better one was found. */
+BRAINSHIFT_DEFORMATION_EXPORT std::string orientationReason(
+  const OrientationSearch& search, const glm::dmat3& axes);
+
+/** All checks of a result, a part of them for each call. */
+class BRAINSHIFT_DEFORMATION_EXPORT Verification
+{
+public:
+  /**
+   * @param pair     both volumes, the reference in its position
+   * @param result   the deformation, over the volume's box
+   * @param plan     with the metrics and limits of the check. The tissue within the outline
+   *                 is not compared, and orientations are not tried, if the reference is
+   *                 ultrasound: a fan has too little in common with a head.
+   */
+  Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan);
+
+  /** False: it is finished. */
+  bool step();
+
+  double done() const; ///< fraction, 0 to 1
+
+  bool isFinished() const { return this->IsFinished; }
+
+  /** Once it is finished. */
+  const Verdict& verdict() const { return this->Found; }
+  const CheckFigures& figures() const { return this->Check.figures(); }
+
+private:
+  bool finishCheck();
+  bool finishInside();
+  void finishSearch();
+
+  ResultCheck Check;
+  CheckPlan Limits;
+  bool IsOfHeads; // the reference is no ultrasound
+  Lattice Result;
+  std::unique_ptr<InsideCheck> Inside;
+  std::unique_ptr<OrientationSearch> Search;
+  bool IsFinished = false;
+  Verdict Found;
+};
+}
+
+#endif

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that checks tell right results from wrong ones without the truth, that they say when too
+// little was compared, and that a reference in a wrong orientation is found and named.
+#include "Filters/Register/Trust.h"
+#include "Testing/Cxx/Register/Synthetic.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+using namespace brainshift;
+using namespace brainshift::testing;
+
+namespace
+{
+const RefinementPlan& plan()
+{
+  return similarities().front().plan;
+}
+
+// 0 in the air, 1 within an ellipsoid.
+double inside(const glm::dvec3& at)
+{
+  const glm::dvec3 away = (at - middle(smallGrid())) / glm::dvec3(32.0, 36.0, 34.0);
+  return glm::clamp(8.0 * (1.0 - glm::length(away)), 0.0, 1.0);
+}
+
+double head(const glm::dvec3& at)
+{
+  return tissue(at) * inside(at);
+}
+
+// A reference of another contrast that shows the tissue of `at(x)` at x.
+RegisteredPair pairOf(const std::function<glm::dvec3(const glm::dvec3&)>& at)
+{
+  RegisteredPair pair;
+  pair.rest = filled(smallGrid(), head);
+  pair.reference = filled(smallGrid(), [&](const glm::dvec3& x) { return 300.0 - head(at(x)); });
+  return pair;
+}
+
+glm::dvec3 same(const glm::dvec3& at)
+{
+  return at;
+}
+
+Lattice still()
+{
+  return makeLattice(withDimensions(smallGrid(), { 9, 9, 9 }), KernelCatmullRom);
+}
+
+Verdict verdict(const RegisteredPair& pair, const Lattice& result)
+{
+  Verification checks(pair, result, plan());
+  double last = 0.0;
+  int calls = 0;
+  while (checks.step() && ++calls < 2000)
+  {
+    EXPECT_GE(checks.done(), last);
+    last = checks.done();
+  }
+  EXPECT_TRUE(checks.isFinished());
+  EXPECT_EQ(checks.done(), 1.0);
+  return checks.verdict();
+}
+
+bool says(const Verdict& verdict, const std::string& words)
+{
+  return std::any_of(verdict.reasons.begin(), verdict.reasons.end(),
+    [&](const std::string& reason) { return reason.find(words) != std::string::npos; });
+}
+}
+
+TEST(Trust, ARightResultIsGood)
+{
+  const Verdict found = verdict(pairOf(same), still());
+  EXPECT_EQ(found.trust, Trust::Good);
+  EXPECT_TRUE(found.reasons.empty()) << found.reasons.front();
+}
+
+TEST(Trust, ARightBendIsGood)
+{
+  const Lattice truth = bulge(smallGrid(), 6.0);
+  RegisteredPair pair;
+  pair.rest = filled(smallGrid(), head);
+  pair.reference =
+    filled(smallGrid(), [&](const glm::dvec3& x) { return 300.0 - head(tissueAt(truth, x)); });
+  EXPECT_EQ(verdict(pair, truth).trust, Trust::Good);
+}
+
+TEST(Trust, OtherTissueIsNotTrusted)
+{
+  RegisteredPair pair = pairOf(same);
+  pair.reference = filled(smallGrid(), [](const glm::dvec3& x) {
+    return tissue(glm::dvec3(1.3 * x.z, 1.5 * x.x, 1.4 * x.y) + glm::dvec3(70.0, -20.0, 30.0)) *
+      inside(x);
+  });
+  const Verdict found = verdict(pair, still());
+  EXPECT_GE(found.trust, Trust::Doubtful);
+  EXPECT_FALSE(found.reasons.empty());
+}
+
+TEST(Trust, AMirroredReferenceIsNamed)
+{
+  const glm::dmat3 axes = smallGrid().direction;
+  const Verdict found = verdict(pairOf([&](const glm::dvec3& x) {
+    const glm::dvec3 normal = axes[0];
+    return x - 2.0 * glm::dot(x - middle(smallGrid()), normal) * normal;
+  }),
+    still());
+  EXPECT_EQ(found.trust, Trust::Failed);
+  EXPECT_TRUE(says(found, "if it is mirrored from left to right"));
+}
+
+TEST(Trust, AHalfTurnIsNamed)
+{
+  const Verdict found = verdict(pairOf([](const glm::dvec3& x) {
+    const glm::dvec3 from = x - middle(smallGrid());
+    return middle(smallGrid()) + glm::dvec3(-from.x, -from.y, from.z);
+  }),
+    still());
+  EXPECT_EQ(found.trust, Trust::Failed);
+  EXPECT_TRUE(says(found, "if it is rotated by 180 degrees about the direction (0, 0, "));
+}
+
+TEST(Trust, TooLittleIsNotChecked)
+{
+  RegisteredPair pair = pairOf(same);
+  pair.inside = ball(smallGrid(), middle(smallGrid()), 6.0);
+  const Verdict found = verdict(pair, still());
+  EXPECT_EQ(found.trust, Trust::Unchecked);
+  EXPECT_TRUE(says(found, "too little was compared"));
+}
+
+TEST(Trust, OneFigureBeyondItsLimitIsDoubtfulAndTwoFail)
+{
+  CheckPlan limits;
+  limits.halvesMm = 2.0;
+  limits.otherMm = 1.0;
+  const auto trust = [&](std::optional<double> halvesMm, std::optional<double> otherMm) {
+    return verdictOf({ halvesMm, otherMm }, limits).trust;
+  };
+  EXPECT_EQ(trust(1.9, 0.9), Trust::Good);
+  EXPECT_EQ(trust(2.1, 0.9), Trust::Doubtful);
+  EXPECT_EQ(trust(1.9, 1.1), Trust::Doubtful);
+  EXPECT_EQ(trust(2.1, 1.1), Trust::Failed);
+  EXPECT_EQ(trust(6.0, 0.1), Trust::Failed) << "far beyond";
+  EXPECT_EQ(trust(1.9, {}), Trust::Good);
+  EXPECT_EQ(trust({}, {}), Trust::Unchecked);
+}
+
+TEST(Trust, APlaceNearbyThatMatchesAsWellFails)
+{
+  CheckPlan limits;
+  limits.rivalGain = 0.014;
+  CheckFigures figures;
+  figures.halvesMm = 1.0;
+  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Good) << "the search found no other place";
+  figures.rivalGain = 0.05;
+  figures.rivalMm = 6.0;
+  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Good);
+  figures.rivalGain = 0.01;
+  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Failed);
+  EXPECT_TRUE(says(verdictOf(figures, limits), "6 mm away on average"));
+  EXPECT_TRUE(says(verdictOf(figures, limits), "nearly as well"));
+  figures.rivalGain = -0.02;
+  EXPECT_TRUE(says(verdictOf(figures, limits), "match better"));
+}
+
+TEST(Trust, AVerdictKeepsTheWorst)
+{
+  Verdict verdict;
+  verdict.lower(Trust::Failed, "one.");
+  verdict.lower(Trust::Doubtful, "two.");
+  EXPECT_EQ(verdict.trust, Trust::Failed);
+  EXPECT_EQ(verdict.reasons.size(), 2u);
+  EXPECT_STREQ(nameOf(verdict.trust), "failed");
+}
+
+TEST(Orientations, AreAllDifferentAndTheFirstChangesNothing)
+{
+  const std::vector<glm::dmat3>& all = allOrientations();
+  EXPECT_EQ(all.size(), 48u);
+  EXPECT_EQ(all.front(), glm::dmat3(1.0));
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    EXPECT_EQ(std::abs(glm::determinant(all[i])), 1.0);
+    EXPECT_EQ(std::count(all.begin(), all.end(), all[i]), 1);
+  }
+}
+
+TEST(Orientations, HaveNames)
+{
+  glm::dmat3 matrix(1.0);
+  EXPECT_EQ(orientationText(matrix, matrix), "moved, in its present orientation");
+  matrix[2][2] = -1.0;
+  EXPECT_EQ(orientationText(matrix, glm::dmat3(1.0)), "mirrored from bottom to top");
+  matrix[1][1] = -1.0;
+  EXPECT_EQ(orientationText(matrix, glm::dmat3(1.0)),
+    "rotated by 180 degrees about the direction (1, 0, 0)");
+  const glm::dmat3 turned(glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1));
+  EXPECT_NE(orientationText(turned, glm::dmat3(1.0)).find("mirrored from"), std::string::npos);
+}
