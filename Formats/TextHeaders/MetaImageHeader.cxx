@@ -48,6 +48,14 @@ void requireKeys(TextHeader& header)
   {
     throwIfAny(isKey(name) ? twice("key " + shownWords(name)) : "");
   }
+  for (const std::string& name : header.text.names)
+  {
+    if (isKey(name) && std::find(std::begin(Keys), std::end(Keys), name) == std::end(Keys))
+    {
+      header.warnings.push_back("has the key '" + shownWords(name) +
+        "' in other capitals than MetaImage's; it counts, but other programs may leave it out");
+    }
+  }
   for (const auto& [name, value] : header.text.fields)
   {
     for (const std::string key : Keys)

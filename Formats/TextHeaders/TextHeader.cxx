@@ -60,6 +60,10 @@ bool takeLine(const std::string& line, HeaderText& text)
   const bool isKey = line.compare(mark, 2, ":=") == 0;
   const std::string name = trimmed(line.substr(0, mark));
   const std::string value = trimmed(line.substr(isKey ? mark + 2 : mark + 1));
+  if (!isKey)
+  {
+    text.names.push_back(name);
+  }
   const auto [known, isNew] =
     isKey ? text.keys.emplace(name, value) : text.fields.emplace(lowerCase(name), value);
   if (!isNew && !(isKey && known->second == value))

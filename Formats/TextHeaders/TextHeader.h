@@ -25,6 +25,7 @@ struct HeaderText
   /// What the format defines, by its name in small letters.
   std::map<std::string, std::string> fields;
   std::map<std::string, std::string> keys; ///< NRRD's "key:=value", which anybody may add
+  std::vector<std::string> names;          ///< of the fields, as the file spells them
   /// Names of fields that occur twice, and of keys that occur twice with another value.
   std::vector<std::string> repeated;
   std::vector<std::string> listed; ///< the lines after a list of files is announced

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What the window keeps by the global numbers of proxies. ParaView gives them to others after Reset
-/// Session and with another server.
+/// What the window keeps by the global numbers of proxies. ParaView gives them to others after
+/// Reset Session and with another server.
 #ifndef BrainShift_Sessions_h
 #define BrainShift_Sessions_h
 

@@ -120,6 +120,9 @@ TEST(TextHeaderSaid, KeysOfMetaImageThatAreAlmostThoseOfTheFormat)
   }
   expectSaid<Meta>("slip.mha", metaImage({ { "ElementToIntensitySlope", "2" } }),
     "has the key 'elementtointensityslope', which MetaImage does not define; it does not count");
+  expectSaid<Meta>("slip.mha",
+    metaImage({ { "TransformMatrix", "" }, { "TransformMaTrix", "-1 0 0 0 -1 0 0 0 1" } }),
+    "has the key 'TransformMaTrix' in other capitals than MetaImage's");
   EXPECT_EQ(saidOf<Meta>("slip.mha", metaImage({ { "0008|0020", "2026" }, { "Namen", "a" } })), "");
 }
 

@@ -96,6 +96,9 @@ def _values(raw, sides, kind, packed):
 def first_of(lines, *keys, default=None):
     """The value of the one of some keys that a header has."""
     present = [key for key in keys if key in lines]
+    capitals = {key.lower() for key in keys}
+    if any(line.lower() in capitals and line not in keys for line in lines):
+        raise Open("a key in other capitals")
     if len(present) > 1 and default is None:
         raise Open(f"{present} together")
     if present:
