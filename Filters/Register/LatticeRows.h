@@ -18,6 +18,9 @@
 
 namespace brainshift
 {
+/** Displacements of the control points: mm along the grid's axes. */
+using Controls = std::vector<glm::vec3>;
+
 /** Numbers of a force: 3 along the axes, then its Hessian xx yy zz xy xz yz. */
 constexpr int ForceNumbers = 9;
 

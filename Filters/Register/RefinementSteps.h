@@ -50,9 +50,6 @@ struct RefinementProgress
   bool isFinished = false;
 };
 
-/** Displacements of the control points: mm along the grid's axes. */
-using Controls = std::vector<glm::vec3>;
-
 /** A result of rigid levels, or where they begin. */
 struct RigidPosition
 {

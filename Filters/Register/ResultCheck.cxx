@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/ResultCheck.h"
 
+#include "Filters/Register/RefinementSteps.h"
+
 #include <limits>
 #include <utility>
 
@@ -25,6 +27,8 @@ ResultCheck::ResultCheck(RegisteredPair pair, const Lattice& result, const Refin
 {
   this->Run = this->Now.metric ? 0 : Runs;
 }
+
+ResultCheck::~ResultCheck() = default;
 
 const RefinementLevel& ResultCheck::wanted() const
 {

@@ -11,10 +11,15 @@
 #ifndef BrainShift_ResultCheck_h
 #define BrainShift_ResultCheck_h
 
-#include "Filters/Register/RefinementSteps.h"
+#include "Filters/Register/PyramidLevel.h"
+
+#include <memory>
 
 namespace brainshift
 {
+class RefinementStep;
+struct RefinementState;
+
 /** What a check found. A figure is absent if too few samples were compared. */
 struct CheckFigures
 {
@@ -34,6 +39,7 @@ public:
    * @param result   the deformation, over the volume's box
    */
   ResultCheck(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan);
+  ~ResultCheck();
 
   /** Compares once, or prepares a part of that. False: it is finished. */
   bool step();
