@@ -23,6 +23,7 @@ from paraview import servermanager, simple  # noqa: E402
 from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 
 NOISE = 0.05  # of the largest value, standard deviation
+NEAR = 0.05  # mm: as near as elastix, whose sums another machine may round elsewhere
 #: A B-spline by mutual information, as elastix' manual begins with.
 PARAMETERS = """
 (Registration "MultiMetricMultiResolutionRegistration")
@@ -120,6 +121,7 @@ def test_landmarks_lie_nearer_than_those_of_elastix():
     case.cavity.UpdatePipeline()
     truth = brainshift.deformed_from_rest(case.sag, case.landmarks)
     values, *place = voxels(case.after_surgery)
+    means = []
     for mode, similarity in (("inverted", "auto"), ("bias noise", "auto"),
                              ("same", "same contrast")):
         reference = with_contrast(values, mode)
@@ -130,9 +132,11 @@ def test_landmarks_lie_nearer_than_those_of_elastix():
               f"{theirs[0]:.3f} / {theirs[1]:.3f} mm in {their_seconds:.1f} s of processor time",
               flush=True)
         assert theirs[0] < 1.0, "elastix was given what it needs"
-        # Another machine may round elastix' sums elsewhere.
-        assert ours[0] < theirs[0] + 0.005 and ours[1] < theirs[1], (mode, ours, theirs)
-        assert ours[0] < 0.2 and ours[1] < 0.6, (mode, ours)
+        assert ours[0] < theirs[0] + NEAR, (mode, ours, theirs)
+        assert ours[0] < 0.15 and ours[1] < 0.6, (mode, ours)
+        means.append((ours[0], theirs[0]))
+    ours, theirs = numpy.mean(means, axis=0)
+    assert ours < theirs, (ours, theirs)
 
 
 def test_contrasts_of_a_scanner():
