@@ -308,7 +308,7 @@ def test_mosaics_that_only_private_attributes_tell():
     for group, creator, element, kind, value, words in (
             (0x0019, "SIEMENS MR HEADER", 0x0a, "US", 9, "a mosaic of 9 slices"),
             (0x0029, "SIEMENS CSA HEADER", 0x10, "OB", header, "a mosaic of 9 slices"),
-            (0x0051, "SIEMENS MR HEADER", 0x16, "LO", "p2 M/ND/MOSAIC", "p2 M/ND/MOSAIC")):
+            (0x0051, "SIEMENS MR HEADER", 0x16, "LO", "p2 M/NORM/MOSAIC", "p2 M/NORM/MOSAIC")):
         change = private(group, creator, element, kind, value)
         refused(change, words, "convert it with dcm2niix", voxels=voxels)
     for change in (private(0x0019, "SIEMENS MR HEADER", 0x0a, "US", 9, [0, 6, 6, 0]),
