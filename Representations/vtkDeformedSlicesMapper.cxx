@@ -270,7 +270,7 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
   const double value = values.scalars->GetComponent(*index, 0);
   const bool seenThrough = this->MapOpacity && state.Property &&
     state.Property->GetScalarOpacity()->GetValue(value) <= 0.0;
-  return !std::isnan(value) && !seenThrough;
+  return std::isfinite(value) && !seenThrough;
 }
 
 bool vtkDeformedSlicesMapper::Pick(

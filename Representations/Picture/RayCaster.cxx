@@ -249,10 +249,6 @@ void setReferenceLightUniforms(Program& program, const RayCastScene& reference)
   {
     program.set("referenceNormals", reference.tissue.normals);
   }
-  else
-  {
-    program.set("referenceVoxel", glm::vec3(reference.tissue.voxel));
-  }
 }
 
 // What reference.glsl, layers.glsl and skipping.glsl need.
@@ -266,6 +262,7 @@ void setComparisonUniforms(Program& program, const RayCastScene& scene)
       tissue.volumeLow, tissue.volumeHigh });
   program.set("cropLow", glm::vec3(scene.cuts.cropLow));
   program.set("cropHigh", glm::vec3(scene.cuts.cropHigh));
+  program.set("referenceVoxel", glm::vec3(tissue.voxel)); // a driver may keep it without light
   program.set("referenceTransfer", tissue.transfer);
   program.set("transferFromReference", glm::vec2(tissue.transferFromScalar));
   program.set("visibleReference", glm::vec2(tissue.visibleScalars));

@@ -129,6 +129,13 @@ mat3 offsetSlopesAt(vec3 deformed)
 }
 #endif
 
+// Whether tissue may have moved at the sample `number` or the next one. `moved`: movedSamples. An
+// offset of zero does not tell: where it changes its sign, its slopes are not zero.
+bool mayMove(vec2 moved, float number)
+{
+  return number + 1.0 >= moved.x && number < moved.y;
+}
+
 // Turns a gradient found in the rest frame into the deformed frame: times the transposed Jacobian
 // of restFromDeformed, else light would not follow the bent surface.
 vec3 deformedGradientFromRest(mat3 slopes, vec3 gradient)

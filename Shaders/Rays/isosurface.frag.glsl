@@ -17,7 +17,7 @@ float crossingBefore(March march, float number, float before, float after, float
     float middle = 0.5 * (ends.x + ends.y);
     vec3 rest = restAt(march, middle);
     float scalar = scalarAt(rest);
-    if (isnan(scalar) || !inKeptTissue(deformedAt(march, middle), rest))
+    if (!isNumber(scalar) || !inKeptTissue(deformedAt(march, middle), rest))
     {
       return -1.0;
     }
@@ -39,7 +39,7 @@ void main()
   {
     vec3 rest = restAt(march, i);
     float scalar = scalarAt(rest);
-    bool inside = inKeptTissue(deformedAt(march, i), rest) && !isnan(scalar);
+    bool inside = inKeptTissue(deformedAt(march, i), rest) && isNumber(scalar);
     for (int k = 0; k < isovalueCount && known && inside; ++k)
     {
       float value = isovalues[scalar > before ? k : isovalueCount - 1 - k];

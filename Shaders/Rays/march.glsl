@@ -50,12 +50,8 @@ bool inKeptTissue(vec3 deformed, vec3 rest)
 // A sample's colour under light, with a Jacobian of its own.
 vec3 shadeAlone(March march, vec3 color, vec3 deformed, vec3 rest)
 {
-  mat3 slopes = mat3(0.0);
-  if (rest != deformed) // where nothing moves there is nothing to turn
-  {
-    slopes = offsetSlopesAt(deformed);
-  }
-  Shine shine = shineAt(deformed, rest, slopes, worldFromGradient, march.towardsEye);
+  Shine shine =
+    shineAt(deformed, rest, offsetSlopesAt(deformed), worldFromGradient, march.towardsEye);
   return shone(shine, evident(color, rest));
 }
 

@@ -25,7 +25,7 @@ void main()
     if (inKeptTissue(deformedAt(march, i), rest))
     {
       float scalar = scalarAt(rest);
-      if (!isnan(scalar) && !isinf(scalar) && (at < 0.0 || beats(scalar, extreme)))
+      if (isNumber(scalar) && (at < 0.0 || beats(scalar, extreme)))
       {
         extreme = scalar;
         at = i;
@@ -53,7 +53,7 @@ void main()
     if (inKeptTissue(deformedAt(march, i), rest))
     {
       float scalar = scalarAt(rest);
-      bool known = !isnan(scalar) && !isinf(scalar);
+      bool known = isNumber(scalar);
 #ifdef AVERAGE
       known = known && scalar >= averagedScalars.x && scalar <= averagedScalars.y;
 #endif

@@ -8,7 +8,7 @@ bool takeTwo(
   vec3 twoDeformed = positionOf(path.deformed, i + 1.0);
   vec3 oneRest = oneDeformed;
   vec3 twoRest = twoDeformed;
-  bool moved = i + 1.0 >= path.moved.x && i < path.moved.y;
+  bool moved = mayMove(path.moved, i);
   vec2 own = vec2(0.0);
   vec2 other = vec2(0.0);
   // A volume adds nothing behind its own opaque tissue.
@@ -33,7 +33,7 @@ bool takeTwo(
   if (visible)
   {
     mat3 slopes = mat3(0.0);
-    if (oneRest != oneDeformed) // where nothing moves there is nothing to turn
+    if (moved) // else there is nothing to turn
     {
       slopes = offsetSlopes(positionOf(path.field, i) + 0.5 * path.field.stride);
     }

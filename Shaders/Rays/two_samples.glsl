@@ -9,7 +9,7 @@ Pair pairAt(Path path, float i)
   pair.twoDeformed = positionOf(path.deformed, i + 1.0);
   pair.oneRest = pair.oneDeformed;
   pair.twoRest = pair.twoDeformed;
-  if (i + 1.0 >= path.moved.x && i < path.moved.y)
+  if (mayMove(path.moved, i))
   {
     pair.oneRest += offsetAt(positionOf(path.field, i));
     pair.twoRest += offsetAt(positionOf(path.field, i + 1.0));
@@ -33,7 +33,7 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
   if (visible)
   {
     mat3 slopes = mat3(0.0);
-    if (pair.oneRest != pair.oneDeformed) // where nothing moves there is nothing to turn
+    if (mayMove(path.moved, i)) // else there is nothing to turn
     {
       slopes = offsetSlopes(positionOf(path.field, i) + 0.5 * path.field.stride);
     }

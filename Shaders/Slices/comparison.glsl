@@ -55,7 +55,7 @@ float ownFraction(float scalar)
 Referenced referenced(vec3 place, float scalar)
 {
   bool known = all(greaterThanEqual(place, referenceLow)) &&
-    all(lessThanEqual(place, referenceHigh)) && !isnan(scalar);
+    all(lessThanEqual(place, referenceHigh)) && isNumber(scalar);
   float fraction = clamp(scalar * fractionFromReference.x + fractionFromReference.y, 0.0, 1.0);
   return Referenced(place, known, known ? fraction : 0.0);
 }
@@ -77,7 +77,7 @@ float gradientFraction(Referenced other)
 {
   vec3 gradient = centralDifferences(reference, other.place, 1.0 / referenceVoxels);
   float full = length(gradient * fullFromGradient);
-  return other.known && !isnan(full) ? min(full, 1.0) : 0.0;
+  return other.known && isNumber(full) ? min(full, 1.0) : 0.0;
 }
 
 // Both volumes in one colour. The cavity does not count and is grey. `color`: of the volume, from
@@ -121,6 +121,7 @@ bool compare(bool hasTissue, float scalar, Place place, inout vec4 seen)
   float own = ownFraction(scalar);
   float beyondMm = dot(wipeNormal, deformed) + wipeShift;
   float pixelMm = fwidth(beyondMm);
+  bool hasEither = hasTissue || other.known;
   if (comparison == ReferenceAlone || (comparison == Wipe && beyondMm > 0.0))
   {
     seen = alone;
@@ -133,6 +134,7 @@ bool compare(bool hasTissue, float scalar, Place place, inout vec4 seen)
   if (comparison == Wipe && abs(beyondMm) < HalfLinePixels * screenScale * pixelMm)
   {
     seen.rgb = WipeColor;
+    hasTissue = hasEither; // whichever side the middle of the pixel is on
   }
   return hasTissue;
 }

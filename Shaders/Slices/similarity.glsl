@@ -37,7 +37,7 @@ void addSample(vec3 deformed, float weight, inout Moments window)
   float scalar = scalarAt(rest);
   vec3 place = (referenceFromTexture * vec4(deformed, 1.0)).xyz;
   Referenced other = referenced(place, textureLod(reference, place, 0.0).r);
-  if (insideVolume(rest) && !isnan(scalar) && other.known && !isRemoved(deformed))
+  if (insideVolume(rest) && isNumber(scalar) && other.known && !isRemoved(deformed))
   {
     vec2 fractions = vec2(ownFraction(scalar), other.fraction);
     window.known += weight;

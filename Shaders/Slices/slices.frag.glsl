@@ -12,7 +12,7 @@ void main()
 {
   vec3 rest = restFromDeformed(deformed);
   float scalar = filteredAt(scalars, rest, voxels);
-  bool hasTissue = insideVolume(rest) && !isnan(scalar);
+  bool hasTissue = insideVolume(rest) && isNumber(scalar);
   vec4 tissue = tissueOf(scalar);
   vec4 seen = vec4(colorOf(tissue, rest), tissue.a);
   bool drawn = compare(hasTissue, scalar, Place(deformed, rest), seen);

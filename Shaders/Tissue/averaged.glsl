@@ -23,7 +23,7 @@ Entry entryOf(TissueTable table, float scalar)
   float coordinate = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
   float number = clamp(floor(Entries * coordinate), 0.0, Entries - 1.0);
   vec4 sums = textureLod(transferSums, vec2((number + 0.5) / Entries, transferRow), 0.0);
-  return Entry(number, vec4(sums.rgb, abs(sums.a)), sums.a > 0.0 && !isnan(scalar));
+  return Entry(number, vec4(sums.rgb, abs(sums.a)), sums.a > 0.0 && isNumber(scalar));
 }
 
 // Colour and opacity between two scalars. At least one of them is visible.
@@ -41,7 +41,7 @@ vec4 averageOf(TissueTable table, Entry from, Entry to, float scalar)
 // The fraction of the map's opacity that is drawn, after cropping, the volume's box and a segment.
 float drawnFraction(TissueTable table, vec3 deformed, vec3 rest, float scalar)
 {
-  bool drawn = inKeptRegion(deformed) && insideVolume(table, rest) && !isnan(scalar);
+  bool drawn = inKeptRegion(deformed) && insideVolume(table, rest) && isNumber(scalar);
   return drawn ? segmentOpacityAt(rest) : 0.0;
 }
 
@@ -73,7 +73,7 @@ bool colorsOfTwo(Path path, TissueTable table, Pair pair, float i, inout Seen se
   {
     zeroScalar = scalarOfSample(path, i - 1.0);
   }
-  Entry zero = entryOf(table, isnan(zeroScalar) ? pair.oneScalar : zeroScalar);
+  Entry zero = entryOf(table, isNumber(zeroScalar) ? zeroScalar : pair.oneScalar);
   Entry one = entryOf(table, pair.oneScalar);
   Entry two = entryOf(table, pair.twoScalar);
   float oneFraction = drawnFraction(table, pair.oneDeformed, pair.oneRest, pair.oneScalar);
@@ -83,7 +83,7 @@ bool colorsOfTwo(Path path, TissueTable table, Pair pair, float i, inout Seen se
   bool oneVisible = one.visible && oneFraction > 0.0;
   seen.lastVisible = two.visible && twoFraction > 0.0;
   first = averageOf(table, zero, one, pair.oneScalar);
-  second = averageOf(table, isnan(pair.oneScalar) ? two : one, two, pair.twoScalar);
+  second = averageOf(table, isNumber(pair.oneScalar) ? one : two, two, pair.twoScalar);
   first.a *= zeroVisible || oneVisible ? oneFraction : 0.0;
   second.a *= oneVisible || seen.lastVisible ? twoFraction : 0.0;
   return true;

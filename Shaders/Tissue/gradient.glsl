@@ -1,13 +1,23 @@
 // A gradient of zero as a texture holds it: whole numbers of ten bits, so that it is exact.
 const float ZeroGradient = 512.0 / 1023.0;
 
-bvec3 areFinite(vec3 scalars)
+const float LargestNumber = 3.402823466e+38;
+
+// Neither NaN nor infinite. Drivers filter and map an infinite scalar in different ways, so both
+// count as unknown.
+bool isNumber(float scalar)
 {
-  return not(bvec3(uvec3(isnan(scalars)) | uvec3(isinf(scalars))));
+  return abs(scalar) <= LargestNumber;
+}
+
+bvec3 areNumbers(vec3 scalars)
+{
+  return lessThanEqual(abs(scalars), vec3(LargestNumber));
 }
 
 // Gradient of the scalar per texture unit: central differences over one voxel to either side.
-// Beside values that are no numbers, differences to the known side only.
+// Beside values that are no numbers, differences to the known side only. Where the position itself
+// has none, the mean of the known sides takes its place.
 vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
 {
   vec3 alongX = vec3(voxel.x, 0.0, 0.0);
@@ -17,13 +27,20 @@ vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
     textureLod(field, position - alongY, 0.0).r, textureLod(field, position - alongZ, 0.0).r);
   vec3 high = vec3(textureLod(field, position + alongX, 0.0).r,
     textureLod(field, position + alongY, 0.0).r, textureLod(field, position + alongZ, 0.0).r);
-  bvec3 knowsLow = areFinite(low);
-  bvec3 knowsHigh = areFinite(high);
+  bvec3 knowsLow = areNumbers(low);
+  bvec3 knowsHigh = areNumbers(high);
   if (all(knowsLow) && all(knowsHigh))
   {
     return (high - low) / (2.0 * voxel);
   }
-  vec3 here = vec3(textureLod(field, position, 0.0).r);
-  vec3 sides = max(vec3(knowsLow) + vec3(knowsHigh), 1.0);
-  return (mix(here, high, knowsHigh) - mix(here, low, knowsLow)) / (sides * voxel);
+  vec3 sides = vec3(knowsLow) + vec3(knowsHigh);
+  float known = dot(sides, vec3(1.0));
+  if (known == 0.0)
+  {
+    return vec3(0.0);
+  }
+  vec3 sums = mix(vec3(0.0), low, knowsLow) + mix(vec3(0.0), high, knowsHigh);
+  float scalar = textureLod(field, position, 0.0).r;
+  vec3 here = vec3(isNumber(scalar) ? scalar : dot(sums, vec3(1.0)) / known);
+  return (mix(here, high, knowsHigh) - mix(here, low, knowsLow)) / (max(sides, 1.0) * voxel);
 }

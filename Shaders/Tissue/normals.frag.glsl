@@ -10,8 +10,7 @@ void main()
 {
   vec3 middle = (targetTexel() + 0.5) * texel;
   vec3 gradient = centralDifferences(scalars, middle, voxel) * gradientScale;
-  bool unknown = any(isnan(gradient)) || any(isinf(gradient));
-  gradient = unknown ? vec3(0.0) : gradient;
+  gradient = all(areNumbers(gradient)) ? gradient : vec3(0.0);
   gradient /= max(length(gradient), 1.0); // keeps the direction
   gl_FragData[0] = vec4(511.0 / 1023.0 * gradient + ZeroGradient, 0.0);
 }

@@ -31,7 +31,7 @@ float referenceScalarAt(vec3 place)
 float referenceOpacityAt(TissueTable table, vec3 place, float scalar)
 {
   float entry = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
-  bool there = insideVolume(table, place) && !isnan(scalar);
+  bool there = insideVolume(table, place) && isNumber(scalar);
   return there ? textureLod(referenceTransfer, vec2(entry, transferRow), 0.0).a : 0.0;
 }
 

@@ -19,7 +19,7 @@ vec3 steepGradientAt(vec3 rest)
 float steepnessOf(vec3 gradient)
 {
   float steep = length(gradient * steepFromGradient);
-  return isnan(steep) ? 0.0 : min(steep, 1.0);
+  return isNumber(steep) ? min(steep, 1.0) : 0.0;
 }
 
 #ifdef STEEPNESS_TABLE

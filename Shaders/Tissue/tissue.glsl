@@ -44,7 +44,7 @@ vec4 tissueOf(TissueTable table, float scalar)
 {
   float entry = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
   vec4 tissue = textureLod(transfer, vec2(entry, transferRow), 0.0);
-  tissue.a = isnan(scalar) ? 0.0 : tissue.a;
+  tissue.a = isNumber(scalar) ? tissue.a : 0.0;
   return tissue;
 }
 

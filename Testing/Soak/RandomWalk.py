@@ -69,8 +69,8 @@ def check(number, log):
     if not due:
         return
     log.tell("check")
-    oracles.rest()
     for what in due:
+        oracles.rest()  # undo and redo of the check before may have left a picture of a movement
         what(chance)
         oracles.no_dialog()
         oracles.no_message()

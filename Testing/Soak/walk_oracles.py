@@ -181,8 +181,10 @@ def undo_and_redo_lead_back(times):
 
 
 def _drawn(view):
-    """The displays of a view that it shows."""
-    return [display for display in view.Representations if getattr(display, "Visibility", 0)]
+    """The displays of a view that it shows. A scale of colours whose Visibility undo has brought
+    back is not among them: ParaView shows it only with Enabled, which no state keeps."""
+    return [display for display in view.Representations
+            if getattr(display, "Visibility", 0) and getattr(display, "Enabled", 1)]
 
 
 def _shown_as(display):

@@ -26,6 +26,9 @@ using namespace brainshift::testing;
 namespace
 {
 constexpr int Places = 61; // a side; it shares no factor with the nodes
+// From the same evaluation in C++. llvmpipe comes within 0.01 mm. Cards interpolate with fractions
+// of eight bits: 1/512 of the difference between two nodes; an H200 came within 0.029 mm.
+constexpr double CardMm = 0.04;
 
 std::string shader(const std::string& name)
 {
@@ -146,7 +149,7 @@ TEST_F(FineDrawing, PutsTissueWhereTheDeformationSays)
         difference);
       EXPECT_GT(rough, miss) << name;
       EXPECT_LT(miss, AllowedMm) << name;
-      EXPECT_LT(difference, 0.01) << name;
+      EXPECT_LT(difference, CardMm) << name;
     }
   }
 }
@@ -178,7 +181,7 @@ TEST_F(FineDrawing, IsExactAgainAfterMoving)
   known.correct(known.moved);
   const auto [miss, difference] = this->missAndDifference(known);
   EXPECT_LT(miss, AllowedMm);
-  EXPECT_LT(difference, 0.01);
+  EXPECT_LT(difference, CardMm);
   // Where nothing bends much there is nothing to look up.
   const std::vector<glm::vec4> offsets = readVolume(
     this->Shown.window(), this->Field.offsets(), glm::ivec3(0), this->Request.nodes.count);
@@ -211,7 +214,7 @@ TEST_F(FineDrawing, IsExactWithAMaskAndNegated)
     this->correct(known);
     const auto [miss, difference] = this->missAndDifference(known);
     EXPECT_LT(miss, AllowedMm) << masked;
-    EXPECT_LT(difference, 0.01) << masked;
+    EXPECT_LT(difference, CardMm) << masked;
   }
 }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that "Deformed Volume" shows what ParaView's "Volume" shows of the baked volume, and that
-# surfaces in front of it, inside it and behind it are hidden or seen correctly.
+# surfaces in front of it, inside it and behind it are hidden or seen correctly. Voxels that are
+# infinite are not drawn, as NaN is not, in the volume and in slices.
 import numpy
 from brainshift_testing import (SIZE, ball, data, load_plugin, mean_difference,
                                 object_pixels, picture, run_tests, show_volume,
@@ -8,6 +9,7 @@ from brainshift_testing import (SIZE, ball, data, load_plugin, mean_difference,
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from slices_testing import show_slices  # noqa: E402
 from paraview.simple import (  # noqa: E402
     BakeDeformation, Delete, FreeFormDeformation, Hide, OpenDataFile, Show, Sphere)
 
@@ -179,6 +181,28 @@ def test_tissue_outside_the_box_is_drawn():
     assert numpy.allclose(image[row, HALF], (0, 1, 0), atol=0.01), image[row, HALF]
     filter.Strength = 0.0
     assert not picture(view)[row, HALF].any()
+
+
+def test_what_is_no_number_is_not_drawn():
+    # All that is drawn is opaque, so a driver that takes infinity for an end of the map shows it.
+    for kind in ("Deformed Volume", "Deformed Slices"):
+        seen = []
+        for value in (50.0, numpy.nan, numpy.inf, -numpy.inf):
+            voxels = numpy.full((33, 33, 33), 50.0, numpy.float32)
+            voxels[:, :, 20:] = value
+            view = view_along((0, 0, -1), MIDDLE, 100.0, half_height=20.0)
+            source = volume(voxels)
+            if kind == "Deformed Slices":
+                show_slices(source, view)
+            else:
+                show_volume(source, view, kind, [0, 0, 1, 0, 100, 0, 1, 0],
+                            [0, 1, 0.5, 0, 100, 1, 0.5, 0])
+            seen.append(object_pixels(picture(view)).mean())
+            Delete(view)
+        whole, *unknown = seen
+        print(f"  {kind}: {whole:.3f} of the picture, beside NaN and infinities {unknown}")
+        assert 0.5 * whole < unknown[0] < 0.7 * whole, (kind, seen)
+        assert unknown == unknown[:1] * 3, (kind, seen)
 
 
 run_tests(globals())

@@ -57,7 +57,7 @@ def test_a_volume_agrees_with_itself():
         assert not both[:, :, 2].any()
         apart = [numpy.abs(both[:, :, color] - alone[:, :, color]).max() for color in (0, 1)]
         print(f"  red and green differ from the volume alone by at most {apart}", flush=True)
-        assert max(apart) <= 2 * LEVEL, (shade, apart)
+        assert max(apart) < 2.5 * LEVEL, (shade, apart)
     off = drawn(compare, VolumeComparison="Off")
     assert (off == drawn(bent_ball)).all(), "off is the volume alone"
     bent_ball.Strength = 1.0

@@ -156,7 +156,8 @@ def test_slices_are_those_of_the_baked_volume():
     unbent = bent_ball(Strokes=())
     view = flat_view(0, MIDDLE, 32.0)
     show_slices(unbent, view, ("Sagittal",), MIDDLE)
-    assert numpy.array_equal(picture(view)[half:], drawn[half:]), "above the edge nothing moves"
+    above = numpy.abs(picture(view) - drawn)[half:]
+    assert above.max() < 1.5 / 255.0, "above the edge nothing moves"  # programs may round apart
     Delete(view)
 
 

@@ -15,6 +15,7 @@ from vtkmodules.vtkCommonCore import vtkCollection  # noqa: E402
 
 SIZE = 200
 HALF = 20.0  # mm, half a view's height
+NEAR = 1.0 + 1e-6  # pixel: a middle at the edge of a line counts or not, by the driver
 MIDDLE = (16.0, 16.0, 16.0)
 POSITION = (12.3, 19.1, 14.6)
 NAMES = ("Sagittal", "Coronal", "Axial")  # across x, y, z
@@ -72,8 +73,8 @@ def test_lines_lie_at_the_position():
             column = SIZE / 2 + offset @ right / (2 * HALF) * SIZE
             row = SIZE / 2 + offset @ up / (2 * HALF) * SIZE
             columns, rows = changed.sum(axis=0), changed.sum(axis=1)
-            assert abs(columns.argmax() + 0.5 - column) <= 1.0, (axis, columns.argmax(), column)
-            assert abs(rows.argmax() + 0.5 - row) <= 1.0, (axis, rows.argmax(), row)
+            assert abs(columns.argmax() + 0.5 - column) <= NEAR, (axis, columns.argmax(), column)
+            assert abs(rows.argmax() + 0.5 - row) <= NEAR, (axis, rows.argmax(), row)
             assert columns.max() > 0.6 * SIZE and rows.max() > 0.6 * SIZE, "beside the tissue too"
             assert (columns > SIZE / 4).sum() <= 2, "a line is thin"
             near = changed[int(row) - 5:int(row) + 6, int(column) - 5:int(column) + 6]
