@@ -208,7 +208,7 @@ class Sweep:
         self._landmarks()
 
     def _place(self):
-        """The probe on the brain's surface, its beam inwards, not at the middle; an oblique grid."""
+        """The probe on the brain, its beam inwards, not at the middle; an oblique grid."""
         random, head = self.randoms["place"], self.head
         down = unit(random.normal(size=3))
         while down[2] <= 0.1:
