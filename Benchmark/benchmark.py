@@ -3,6 +3,7 @@
 
     ./brainshift bench [--quick] [--sizes 128 256 512] [--lattices 9 19 37] [--windows 512 1024]
                        [--rounds 5] [--seconds 15]
+    ./brainshift bench --ultrasound      errors of Refine by ultrasound instead (ultrasound.py)
 
 It prints tables and writes bench-output/benchmark.json and a plot. The last table shows the floors
 and goals of targets.py. The reference case is the sample MRI on 256x256x150 voxels of 1 mm, uint8,
@@ -366,4 +367,8 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
-    main()
+    if "--ultrasound" in sys.argv:
+        from ultrasound import measure_ultrasound
+        measure_ultrasound([word for word in sys.argv[1:] if word != "--ultrasound"])
+    else:
+        main()

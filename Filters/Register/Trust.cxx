@@ -4,6 +4,7 @@
 #include "Common/Numbers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace brainshift
@@ -15,6 +16,9 @@ constexpr double FarBeyond = 1.5;
 
 // The least gain of mutual information by another orientation, as a fraction.
 constexpr double LeastGain = 0.1;
+
+// Noise has a mutual information of 0.04 to 0.06 nats in any orientation.
+constexpr double LeastInformation = 0.1;
 
 // The least fraction by which the cost is less far within the outline than beside a right result.
 constexpr double LeastGainInside = 0.2;
@@ -81,31 +85,31 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
   return verdict;
 }
 
-std::string orientationReason(const OrientationSearch& search, const glm::dmat3& axes)
+std::string orientationReason(
+  const Orientation& asItIs, const Orientation& other, const glm::dmat3& axes)
 {
-  const double now = search.asItIs().information;
-  const double best = search.bestOther().information;
-  if (best <= (1.0 + LeastGain) * now)
+  const double now = asItIs.information;
+  const double best = other.information;
+  if (best <= (1.0 + LeastGain) * now || best < LeastInformation)
   {
     return {};
   }
-  return "The reference matches the volume better if it is " +
-    orientationText(search.bestOther().matrix, axes) + ": mutual information " + roundedText(best) +
-    " nats in place of " + roundedText(now) +
+  return "The reference matches the volume better if it is " + orientationText(other.matrix, axes) +
+    ": mutual information " + roundedText(best) + " nats in place of " + roundedText(now) +
     ". Check in which orientation the two volumes were read.";
 }
 
-std::string insideReason(const InsideCheck& check)
+std::string insideReason(const std::optional<double>& gain, double besideMm)
 {
-  const std::optional<double> gain = check.gain();
   if (!gain || *gain > LeastGainInside)
   {
     return {};
   }
-  return "Far within the outlines the volumes match no better than " + inMm(check.besideMm()) +
-    " beside the result: the cost is " + roundedText(100.0 * *gain) +
-    " percent less; for right results it is " + roundedText(100.0 * LeastGainInside) +
-    " percent or more. The tissue may be another one.";
+  const std::string percent = roundedText(100.0 * std::abs(*gain));
+  return "Far within the outlines the volumes match no better than " + inMm(besideMm) +
+    " beside the result: the cost is " + percent +
+    (*gain < 0.0 ? " percent more" : " percent less") + "; for right results it is at least " +
+    roundedText(100.0 * LeastGainInside) + " percent less. The tissue may be another one.";
 }
 
 Verification::Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan)
@@ -130,7 +134,7 @@ bool Verification::finishCheck()
 
 bool Verification::finishInside()
 {
-  const std::string reason = insideReason(*this->Inside);
+  const std::string reason = insideReason(this->Inside->gain(), this->Inside->besideMm());
   if (!reason.empty())
   {
     this->Found.lower(Trust::Doubtful, reason);
@@ -141,8 +145,8 @@ bool Verification::finishInside()
 
 void Verification::finishSearch()
 {
-  const std::string reason =
-    orientationReason(*this->Search, this->Check.pair().rest.grid.direction);
+  const std::string reason = orientationReason(
+    this->Search->asItIs(), this->Search->bestOther(), this->Check.pair().rest.grid.direction);
   if (!reason.empty())
   {
     this->Found.lower(Trust::Failed, reason);

@@ -37,12 +37,23 @@ struct Verdict
 BRAINSHIFT_DEFORMATION_EXPORT Verdict verdictOf(
   const CheckFigures& figures, const CheckPlan& limits);
 
-/** Why the match far within the outlines is too weak: a sentence. Empty if it is not. */
-BRAINSHIFT_DEFORMATION_EXPORT std::string insideReason(const InsideCheck& check);
+/**
+ * Why the match far within the outlines is too weak: a sentence. Empty if it is not.
+ *
+ * @param gain       InsideCheck::gain
+ * @param besideMm   InsideCheck::besideMm
+ */
+BRAINSHIFT_DEFORMATION_EXPORT std::string insideReason(
+  const std::optional<double>& gain, double besideMm);
 
-/** Why a reference is in a wrong orientation: a sentence. Empty if no better one was found. */
+/**
+ * Why a reference is in a wrong orientation: a sentence. Empty if the other one is not clearly
+ * better, or if it tells too little itself, as noise does.
+ *
+ * @param axes   of the volume
+ */
 BRAINSHIFT_DEFORMATION_EXPORT std::string orientationReason(
-  const OrientationSearch& search, const glm::dmat3& axes);
+  const Orientation& asItIs, const Orientation& other, const glm::dmat3& axes);
 
 /** All checks of a result, a part of them for each call. */
 class BRAINSHIFT_DEFORMATION_EXPORT Verification

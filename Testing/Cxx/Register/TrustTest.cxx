@@ -168,6 +168,29 @@ TEST(Trust, APlaceNearbyThatMatchesAsWellFails)
   EXPECT_TRUE(says(verdictOf(figures, limits), "match better"));
 }
 
+TEST(Trust, AMatchInsideThatIsWorseThanBesideIsNotCalledLess)
+{
+  EXPECT_TRUE(insideReason({}, 8.0).empty());
+  EXPECT_TRUE(insideReason(0.3, 8.0).empty());
+  EXPECT_NE(insideReason(0.1, 8.0).find("the cost is 10 percent less"), std::string::npos);
+  EXPECT_NE(insideReason(-0.04, 8.0).find("the cost is 4 percent more"), std::string::npos);
+}
+
+TEST(Trust, AnOrientationOfNoiseIsNotBetter)
+{
+  const auto reason = [](double now, double best) {
+    Orientation asItIs;
+    asItIs.information = now;
+    Orientation other;
+    other.matrix[0][0] = -1.0;
+    other.information = best;
+    return orientationReason(asItIs, other, glm::dmat3(1.0));
+  };
+  EXPECT_TRUE(reason(0.04, 0.05).empty()) << "noise";
+  EXPECT_TRUE(reason(0.5, 0.54).empty());
+  EXPECT_NE(reason(0.4, 0.5).find("mirrored from left to right"), std::string::npos);
+}
+
 TEST(Trust, AVerdictKeepsTheWorst)
 {
   Verdict verdict;
