@@ -102,8 +102,14 @@ std::vector<float> LevelSamples::read(const std::vector<float>& values, int numb
     {
       for (int j = 0; j < grid.dimensions.y; ++j)
       {
-        for (int i = 0; i < grid.dimensions.x; ++i)
+        const Stretch& counting =
+          this->stretches[static_cast<std::size_t>(k) * grid.dimensions.y + j];
+        for (int i = counting.first; i < counting.last; ++i)
         {
+          if (this->weights[grid.offset(i, j, k)] <= 0.0f)
+          {
+            continue;
+          }
           const Neighbours at = neighboursOf(
             grid.dimensions, glm::clamp(this->rows.position(i, j, k), glm::vec3(0.0f), last));
           float* to = &result[grid.offset(i, j, k) * numbers];
