@@ -8,7 +8,7 @@ namespace brainshift
 {
 namespace
 {
-void add(const float* from, std::size_t count, float* to)
+inline void add(const float* from, std::size_t count, float* to)
 {
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -17,7 +17,7 @@ void add(const float* from, std::size_t count, float* to)
 }
 
 // Sums of a line's points for its window `number`. A point has `inner` numbers.
-void gatherOne(
+inline void gatherOne(
   const float* points, int count, std::size_t inner, const glm::ivec2& numberAndRadius, float* to)
 {
   std::fill(to, to + inner, 0.0f);
@@ -30,7 +30,7 @@ void gatherOne(
 }
 
 // Sums of the windows that hold point `number` of a line of `count` points.
-void spreadOne(
+inline void spreadOne(
   const float* windows, int count, std::size_t inner, const glm::ivec2& numberAndRadius, float* to)
 {
   std::fill(to, to + inner, 0.0f);
@@ -75,20 +75,44 @@ Block along(const Block& from, const Pass& pass)
 }
 }
 
+namespace
+{
+// `numbers` as a constant where it is one of some, so that the compiler makes vector instructions.
+template <typename Work>
+void withNumbers(int numbers, const Work& work)
+{
+  switch (numbers)
+  {
+    case 6:
+      work(std::integral_constant<int, 6>());
+      break;
+    case 10:
+      work(std::integral_constant<int, 10>());
+      break;
+    default:
+      work(numbers);
+  }
+}
+}
+
 void Windows::gatherRow(const float* points, int count, int numbers, float* windows) const
 {
-  for (int number = 0; number < windowsAlong(count); ++number)
-  {
-    gatherOne(points, count, numbers, { number, this->Radius }, windows + number * numbers);
-  }
+  withNumbers(numbers, [&](const auto each) {
+    for (int number = 0; number < windowsAlong(count); ++number)
+    {
+      gatherOne(points, count, each, { number, this->Radius }, windows + number * each);
+    }
+  });
 }
 
 void Windows::spreadRow(const float* windows, int count, int numbers, float* points) const
 {
-  for (int number = 0; number < count; ++number)
-  {
-    spreadOne(windows, count, numbers, { number, this->Radius }, points + number * numbers);
-  }
+  withNumbers(numbers, [&](const auto each) {
+    for (int number = 0; number < count; ++number)
+    {
+      spreadOne(windows, count, each, { number, this->Radius }, points + number * each);
+    }
+  });
 }
 
 Block Windows::gathered(const Block& rows) const
@@ -107,8 +131,8 @@ Block Windows::spread(const Block& windows, const glm::ivec3& points) const
 
 namespace
 {
-constexpr float LeastWindow = 0.3f;            // fraction of its samples that a window must have
-constexpr float LeastVarianceFraction = 0.02f; // of the mean variance of a volume's windows
+constexpr float LeastWindow = 0.3f;   // fraction of its samples that a window must have
+constexpr float SamplesForOne = 2.0f; // for each one of a checkerboard
 
 // Sums over a window; G is the second term. Its results for its samples (Left) replace them.
 enum Sum
@@ -194,10 +218,10 @@ std::vector<float> windowVariances(
 }
 
 // A variance below which a window is taken for flat.
-float leastVariance(const std::vector<float>& variances, float ridge)
+float leastVariance(const std::vector<float>& variances, float fraction, float ridge)
 {
   const double sum = std::accumulate(variances.begin(), variances.end(), 0.0);
-  return std::max(ridge, static_cast<float>(LeastVarianceFraction * sum / variances.size()));
+  return std::max(ridge, static_cast<float>(fraction * sum / variances.size()));
 }
 }
 
@@ -212,11 +236,7 @@ struct LocalFitSimilarity::Work
   {
   }
 
-  void clear()
-  {
-    std::fill(this->weight.begin(), this->weight.end(), 0.0f);
-    std::fill(this->rows.values.begin(), this->rows.values.end(), 0.0f);
-  }
+  void clear() { std::fill(this->weight.begin(), this->weight.end(), 0.0f); }
 
   std::vector<float> value;     // of the reference at the samples
   std::vector<float> weight;    // of the samples; 0: not compared
@@ -236,13 +256,15 @@ LocalFitSimilarity::LocalFitSimilarity(
   , Rest(std::move(level.rest.values))
   , Reference(std::move(level.reference))
   , Ridge(fit.ridge)
+  , IsThin(fit.isThin)
 {
   toFractions(this->Rest, level.restWeights.values);
   toFractions(this->Reference.values, level.referenceWeights.values);
-  this->LeastVariance = leastVariance(
-    windowVariances(this->Around, this->Reference.values, level.referenceWeights), this->Ridge);
+  this->LeastVariance =
+    leastVariance(windowVariances(this->Around, this->Reference.values, level.referenceWeights),
+      fit.leastVariance, this->Ridge);
   const std::vector<float> variances = windowVariances(this->Around, this->Rest, level.restWeights);
-  const float least = leastVariance(variances, this->Ridge);
+  const float least = leastVariance(variances, fit.leastVariance, this->Ridge);
   for (const float variance : variances)
   {
     this->Varies.push_back(variance > least ? 1 : 0);
@@ -250,6 +272,10 @@ LocalFitSimilarity::LocalFitSimilarity(
   this->readSecond(level, fit.second);
   this->Rest = this->Samples.read(this->Rest, 1);
   this->leaveOutIdleSamples();
+  if (this->IsThin)
+  {
+    this->thinOut();
+  }
 }
 
 void LocalFitSimilarity::readSecond(const LevelVolumes& level, SecondTerm second)
@@ -290,6 +316,24 @@ void LocalFitSimilarity::leaveOutIdleSamples()
       for (int i = 0; i < sides.x; ++i)
       {
         weights[i] = needed[i] > 0.0f ? weights[i] : 0.0f;
+      }
+    }
+  }
+  this->Samples.findStretches();
+}
+
+// The middles of windows have even indices and stay.
+void LocalFitSimilarity::thinOut()
+{
+  const glm::ivec3 sides = this->Samples.rows.samples().dimensions;
+  std::size_t number = 0;
+  for (int k = 0; k < sides.z; ++k)
+  {
+    for (int j = 0; j < sides.y; ++j)
+    {
+      for (int i = 0; i < sides.x; ++i, ++number)
+      {
+        this->Samples.weights[number] *= (i + j + k) % 2 == 0 ? 1.0f : 0.0f;
       }
     }
   }
@@ -348,8 +392,9 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
 {
   const float samples = numbers[Count];
   const float side = static_cast<float>(this->Around.side());
+  const float all = side * side * side / (this->IsThin ? SamplesForOne : 1.0f);
   float left[Lefts] = {};
-  if (counts && samples > LeastWindow * side * side * side)
+  if (counts && samples > LeastWindow * all)
   {
     const float p = numbers[P] / samples;
     const float v = numbers[V] / samples;
@@ -372,15 +417,15 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
       explained = a * vp + b * vg;
     }
     // A window without variance has no information: its cost is 1, whatever moves.
-    const float all = vv + this->LeastVariance;
-    const float unexplained = std::max(0.0f, all - explained);
-    sum += unexplained / all;
+    const float variance = vv + this->LeastVariance;
+    const float unexplained = std::max(0.0f, variance - explained);
+    sum += unexplained / variance;
     windows += 1.0;
-    left[Scale] = 1.0f / (all * samples);
+    left[Scale] = 1.0f / (variance * samples);
     left[ScaleA] = left[Scale] * a;
     left[ScaleB] = left[Scale] * b;
     left[ScaleC] = left[Scale] * (v - a * p - b * g);
-    left[Loss] = left[Scale] * unexplained / all;
+    left[Loss] = left[Scale] * unexplained / variance;
     left[LossMean] = left[Loss] * v;
   }
   std::copy(left, left + Lefts, numbers);
@@ -452,6 +497,12 @@ ControlForces LocalFitSimilarity::takeForces(
   });
 }
 
+void LocalFitSimilarity::restrictTo(const HalfSpace& half)
+{
+  this->Samples.restrictTo(half);
+  this->Known = nullptr; // rows that hold no sample any more are zero
+}
+
 CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacements)
 {
   if (!this->Known)
@@ -465,16 +516,17 @@ CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displace
   this->fitWindows(work);
   CostAndForces result =
     averaged(work.slabSums, work.slabCounts, this->takeForces(displacements, work));
-  result.samples = std::accumulate(work.weight.begin(), work.weight.end(), 0.0);
-  result.possible = this->Samples.possible;
+  const double points = this->IsThin ? SamplesForOne : 1.0;
+  result.samples = points * std::accumulate(work.weight.begin(), work.weight.end(), 0.0);
+  result.possible = points * this->Samples.possible;
   return result;
 }
 
 namespace
 {
-constexpr LocalFit ByVolume{};
+constexpr LocalFit ByVolume{ SecondTerm::None, 3, 1e-4f, true };
 constexpr LocalFit ByGradients{ SecondTerm::GradientLength, 2 };
-constexpr LocalFit BySquare{ SecondTerm::Square, 2, 3e-5f };
+constexpr LocalFit BySquare{ SecondTerm::Square, 2, 3e-5f, true, 0.005f };
 
 template <const LocalFit& Fit>
 Metric metricOf()

@@ -93,6 +93,9 @@ struct LocalFit
   SecondTerm second = SecondTerm::None;
   int windowRadius = 3; ///< points
   float ridge = 1e-4f;  ///< variance of the volume (range 0 to 1) below which it is flat; above 0
+  bool isThin = false;  ///< every second sample, those of a checkerboard
+  /** Fraction of a volume's mean variance below which a window carries little information. */
+  float leastVariance = 0.02f;
 };
 
 class LocalFitSimilarity : public Comparison
@@ -107,11 +110,12 @@ public:
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
 
-  void restrictTo(const HalfSpace& half) override { this->Samples.restrictTo(half); }
+  void restrictTo(const HalfSpace& half) override;
 
 private:
   struct Work;
   void leaveOutIdleSamples();
+  void thinOut();
   void takeSample(const LevelSamples::Compared& sample, float* sums, Work& work) const;
   void takeSamples(const std::vector<glm::vec3>& displacements, Work& work) const;
   void fitWindows(Work& work) const;
@@ -129,6 +133,7 @@ private:
   Volume Reference;            // at the points, 0 to 1
   std::vector<char> Varies;    // of the windows; 1: the volume varies there
   float Ridge;                 // of LocalFit
+  bool IsThin;                 // of LocalFit
   float LeastVariance;         // of the reference, below which a window carries little information
   std::unique_ptr<Work> Known; // of the last comparison; its memory serves the next one
 };
