@@ -363,7 +363,13 @@ Volume weightsOf(const Grid& grid, const Region& region, const Support& support)
     missing.values[number] = counts(region, world) ? 0.0f : 1.0f;
   });
   Volume result{ grid, std::vector<float>(grid.count(), 1.0f) };
-  for (int axis = 0; axis < 3; ++axis)
+  const auto isMissing = [](float number) { return number > 0.0f; };
+  if (std::none_of(missing.values.begin(), missing.values.end(), isMissing))
+  {
+    return result;
+  }
+  const int boxes = support.along == support.across ? 1 : 3; // 1: all three are the same
+  for (int axis = 0; axis < boxes; ++axis)
   {
     glm::ivec3 radii(support.across);
     radii[axis] = support.along;

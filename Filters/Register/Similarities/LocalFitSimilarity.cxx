@@ -55,11 +55,11 @@ struct Pass
   One one = nullptr;
 };
 
-Block along(const Block& from, const Pass& pass)
+void along(const Block& from, const Pass& pass, Block& to)
 {
   glm::ivec3 sides = from.dimensions;
   sides[pass.axis] = pass.results;
-  Block to(sides, from.numbers);
+  to.reshape(sides, from.numbers);
   std::size_t inner = static_cast<std::size_t>(from.numbers) * sides.x;
   inner *= pass.axis == 2 ? sides.y : 1;
   const std::int64_t outer = pass.axis == 2 ? 1 : sides.z;
@@ -71,7 +71,6 @@ Block along(const Block& from, const Pass& pass)
         { n % pass.results, pass.radius }, to.values.data() + n * inner);
     }
   });
-  return to;
 }
 }
 
@@ -115,18 +114,17 @@ void Windows::spreadRow(const float* windows, int count, int numbers, float* poi
   });
 }
 
-Block Windows::gathered(const Block& rows) const
+void Windows::gather(const Block& rows, Block& windows)
 {
   const glm::ivec3 points = rows.dimensions;
-  const Block columns =
-    along(rows, { 1, points.y, windowsAlong(points.y), this->Radius, gatherOne });
-  return along(columns, { 2, points.z, windowsAlong(points.z), this->Radius, gatherOne });
+  along(rows, { 1, points.y, windowsAlong(points.y), this->Radius, gatherOne }, this->Between);
+  along(this->Between, { 2, points.z, windowsAlong(points.z), this->Radius, gatherOne }, windows);
 }
 
-Block Windows::spread(const Block& windows, const glm::ivec3& points) const
+void Windows::spread(const Block& windows, const glm::ivec3& points, Block& rows)
 {
-  const Block slabs = along(windows, { 2, points.z, points.z, this->Radius, spreadOne });
-  return along(slabs, { 1, points.y, points.y, this->Radius, spreadOne });
+  along(windows, { 2, points.z, points.z, this->Radius, spreadOne }, this->Between);
+  along(this->Between, { 1, points.y, points.y, this->Radius, spreadOne }, rows);
 }
 
 namespace
@@ -184,7 +182,7 @@ void toFractions(std::vector<float>& values, const std::vector<float>& weights)
 
 // The variance of the values that count in each window.
 std::vector<float> windowVariances(
-  const Windows& around, const std::vector<float>& values, const Volume& weights)
+  Windows& around, const std::vector<float>& values, const Volume& weights)
 {
   constexpr int Numbers = 3;
   const glm::ivec3 sides = weights.grid.dimensions;
@@ -206,7 +204,8 @@ std::vector<float> windowVariances(
       }
     }
   });
-  const Block windows = around.gathered(rows);
+  Block windows;
+  around.gather(rows, windows);
   std::vector<float> variances;
   for (std::size_t n = 0; n < windows.values.size(); n += Numbers)
   {
@@ -243,6 +242,7 @@ struct LocalFitSimilarity::Work
   std::vector<glm::vec3> slope; // of the reference for each mm that the controls move
   Block rows;                   // Sum, gathered along x alone
   Block windows;                // Sum, then Left
+  Block lefts;                  // Left, spread along z and y
   std::vector<double> slabSums; // of the windows' cost
   std::vector<double> slabCounts;
 };
@@ -305,7 +305,8 @@ void LocalFitSimilarity::leaveOutIdleSamples()
   const glm::ivec3 sides = this->Samples.rows.samples().dimensions;
   Block windows({ windowsAlong(sides.x), windowsAlong(sides.y), windowsAlong(sides.z) }, 1);
   std::copy(this->Varies.begin(), this->Varies.end(), windows.values.begin());
-  const Block rows = this->Around.spread(windows, sides);
+  Block rows;
+  this->Around.spread(windows, sides, rows);
   std::vector<float> needed(sides.x);
   for (int k = 0; k < sides.z; ++k)
   {
@@ -366,7 +367,7 @@ void LocalFitSimilarity::takeSample(
   }
 }
 
-void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements, Work& work) const
+void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements, Work& work)
 {
   const LevelSamples& samples = this->Samples;
   const glm::ivec3 sides = samples.rows.samples().dimensions;
@@ -385,7 +386,7 @@ void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements
     }
     return false;
   });
-  work.windows = this->Around.gathered(work.rows);
+  this->Around.gather(work.rows, work.windows);
 }
 
 void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, double& windows) const
@@ -431,7 +432,7 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
   std::copy(left, left + Lefts, numbers);
 }
 
-void LocalFitSimilarity::fitWindows(Work& work) const
+void LocalFitSimilarity::fitWindows(Work& work)
 {
   const Grid& grid = this->Samples.rows.samples();
   const glm::ivec3 sides = work.windows.dimensions;
@@ -453,7 +454,7 @@ void LocalFitSimilarity::fitWindows(Work& work) const
       }
     }
   });
-  work.windows = this->Around.spread(work.windows, grid.dimensions);
+  this->Around.spread(work.windows, grid.dimensions, work.lefts);
 }
 
 ControlForces LocalFitSimilarity::takeForces(
@@ -461,7 +462,7 @@ ControlForces LocalFitSimilarity::takeForces(
 {
   const LevelSamples& samples = this->Samples;
   const Grid& grid = samples.rows.samples();
-  const int numbers = work.windows.numbers;
+  const int numbers = work.lefts.numbers;
   return samples.rows.visitRows(displacements, [&](const SampleRow& row) {
     const LevelSamples::Stretch stretch =
       samples.stretches[static_cast<std::size_t>(row.k) * grid.dimensions.y + row.j];
@@ -470,8 +471,7 @@ ControlForces LocalFitSimilarity::takeForces(
       return false;
     }
     std::vector<float> lefts(static_cast<std::size_t>(grid.dimensions.x) * numbers);
-    this->Around.spreadRow(
-      work.windows.row(row.j, row.k), grid.dimensions.x, numbers, lefts.data());
+    this->Around.spreadRow(work.lefts.row(row.j, row.k), grid.dimensions.x, numbers, lefts.data());
     for (int i = stretch.first; i < stretch.last; ++i)
     {
       const std::size_t n = grid.offset(i, row.j, row.k);
