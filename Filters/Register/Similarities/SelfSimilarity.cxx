@@ -426,7 +426,7 @@ Similarity describeSelfSimilarity()
     { &QuadraticFit, 1.5, 1.0, false, true, 1, LastStiffness } };
   result.plan.stiffness = CoarseStiffness;
   result.plan.converged = Converged;
-  result.plan.check.halves = { &ThinSelfSimilarity, 4.0, 1.0, true };
+  result.plan.check.halves = { &SelfSimilarityMetric, 4.0, 1.0, true };
   result.plan.check.other = { &QuadraticFit, 4.0, 1.0, true };
   return result;
 }

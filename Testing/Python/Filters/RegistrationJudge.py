@@ -167,7 +167,7 @@ def test_contrasts_of_a_scanner():
               flush=True)
         assert theirs[0] < 1.0, "elastix was given what it needs"
         # In thin slices of FLAIR elastix is nearer.
-        assert ours[0] < 0.5 and ours[1] < 1.5, (contrast, ours)
+        assert ours[0] < 0.45 and ours[1] < 1.2, (contrast, ours)
         means.append((ours[0], theirs[0]))
     ours, theirs = numpy.mean(means, axis=0)
     assert ours < theirs, (ours, theirs)
