@@ -155,8 +155,7 @@ std::vector<Volume> pyramid(const Volume& volume, const std::vector<double>& lev
   const Volume* from = &volume;
   for (std::size_t level = levelsMm.size(); level-- > 0;)
   {
-    levels[level] =
-      resampled(smoothed(*from, levelsMm[level]), coarseGrid(volume.grid, levelsMm[level]));
+    levels[level] = sampled(*from, levelsMm[level], coarseGrid(volume.grid, levelsMm[level]));
     from = &levels[level];
   }
   for (Volume& level : levels)
@@ -295,6 +294,22 @@ Alignment::Alignment(
     squares += away * away / std::max(1.0, static_cast<double>(coarse.size()));
   }
   this->RadiusMm = std::max(1.0, std::sqrt(squares.x + squares.y + squares.z));
+}
+
+void Alignment::moveReference(const glm::dmat3& matrix, const glm::dvec3& shift)
+{
+  const auto move = [&](Grid& grid) {
+    grid.direction = matrix * grid.direction;
+    grid.origin = matrix * grid.origin + shift;
+  };
+  for (Volume& level : this->References)
+  {
+    move(level.grid);
+  }
+  for (Mask& mask : this->Missing)
+  {
+    move(mask.grid);
+  }
 }
 
 RigidPose Alignment::motionOf(const Parameters& at) const

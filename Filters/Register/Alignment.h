@@ -101,6 +101,15 @@ public:
   Alignment(
     const RegisteredPair& pair, const Lattice* bent, const AlignmentSettings& settings = {});
 
+  /**
+   * Moves the reference to `matrix` x + `shift` (mm, world) before the first step. The matrix is
+   * orthogonal; it may mirror.
+   */
+  void moveReference(const glm::dmat3& matrix, const glm::dvec3& shift);
+
+  /** Mutual information (nats) where the reference is now, on the present level. */
+  double information() const { return -this->loss(this->Best); }
+
   /** Searches one line. Nothing once it is finished. */
   const AlignmentProgress& step();
 

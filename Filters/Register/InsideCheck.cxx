@@ -20,7 +20,7 @@ constexpr float Tissue = 0.1f; // differs from the air by this fraction of the r
 
 Volume coarseVolume(const Volume& volume, double spacingMm)
 {
-  return resampled(smoothed(volume, spacingMm), coarseGrid(volume.grid, spacingMm));
+  return sampled(volume, spacingMm, coarseGrid(volume.grid, spacingMm));
 }
 
 bool isAtBorder(const glm::ivec3& at, const glm::ivec3& sides)

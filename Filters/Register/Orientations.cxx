@@ -15,9 +15,10 @@ constexpr double CoarseMm = 8.0;
 constexpr double FineMm = 4.0;
 constexpr std::size_t CoarseSamples = 4000;
 constexpr std::size_t FineSamples = 20000;
-constexpr int Finals = 3;          // beside the reference as it is
-constexpr std::size_t Trials = 49; // as it is, and 48 orientations
-constexpr float Air = 0.1f;        // fraction of the range of values
+constexpr int Finals = 3;            // beside the reference as it is
+constexpr double Alike = 0.9;        // of the information on the coarse level
+constexpr std::size_t Searched = 12; // of the 48 orientations
+constexpr float Air = 0.1f;          // fraction of the range of values
 
 // A mask with voxels of a coarse grid.
 Mask coarseMask(const Mask& mask)
@@ -34,7 +35,7 @@ Mask coarseMask(const Mask& mask)
 
 Volume coarseVolume(const Volume& volume)
 {
-  return resampled(smoothed(volume, FineMm), coarseGrid(volume.grid, FineMm));
+  return sampled(volume, FineMm, coarseGrid(volume.grid, FineMm));
 }
 
 // The mean position of what is brighter than air (mm, world).
@@ -113,73 +114,100 @@ void OrientationSearch::read()
   this->Pair.cavity = coarseMask(this->Whole.cavity);
   this->Pair.referenceUnknown = coarseMask(this->Whole.referenceUnknown);
   this->ReferenceMiddle = tissueMiddle(this->Pair.reference);
+  this->Coarse = std::make_unique<Alignment>(
+    this->Pair, &this->Bent, settingsOf({ CoarseMm }, CoarseSamples, 2));
+  this->Fine =
+    std::make_unique<Alignment>(this->Pair, &this->Bent, settingsOf({ FineMm }, FineSamples, 3));
 }
 
-double OrientationSearch::informationOf(
-  const Orientation& one, const AlignmentSettings& settings) const
+Alignment OrientationSearch::placed(const Orientation& one, const Alignment& start)
 {
-  RegisteredPair pair = this->Pair;
-  if (one.isMoved)
-  {
-    const glm::dmat3& axes = pair.rest.grid.direction;
-    const glm::dmat3 whole = axes * one.matrix * glm::transpose(axes);
-    for (Grid* grid : { &pair.reference.grid, &pair.cavity.grid, &pair.referenceUnknown.grid })
-    {
-      grid->direction = whole * grid->direction;
-      grid->origin = this->RestMiddle + whole * (grid->origin - this->ReferenceMiddle);
-    }
-  }
-  Alignment search(pair, &this->Bent, settings);
+  Alignment search = start;
+  search.moveReference(one.placement, one.shift);
+  return search;
+}
+
+// The search begins where the last one ended.
+void OrientationSearch::search(Orientation& one, const Alignment& start)
+{
+  Alignment search = placed(one, start);
   while (!search.progress().isFinished)
   {
     search.step();
   }
-  return search.progress().information;
+  const RigidPose motion = search.motion();
+  one.placement = motion.rotation * one.placement;
+  one.shift = motion.apply(one.shift);
+  one.information = search.progress().information;
 }
 
+// The reference as it is, then the orientations that match best where the middles meet.
+void OrientationSearch::glance()
+{
+  const glm::dmat3& axes = this->Pair.rest.grid.direction;
+  std::vector<Orientation> others;
+  for (const glm::dmat3& matrix : allOrientations())
+  {
+    Orientation one;
+    one.matrix = matrix;
+    one.placement = axes * matrix * glm::transpose(axes);
+    one.shift = this->RestMiddle - one.placement * this->ReferenceMiddle;
+    one.information = placed(one, *this->Coarse).information();
+    others.push_back(one);
+  }
+  std::sort(others.begin(), others.end(), hasMore);
+  this->Candidates.emplace_back();
+  this->Candidates.insert(this->Candidates.end(), others.begin(), others.begin() + Searched);
+}
+
+// The finer level changes the order of those that are alike, and of no others.
 void OrientationSearch::choose()
 {
-  this->Finalists.push_back(this->Tried.front());
-  std::sort(this->Tried.begin() + 1, this->Tried.end(), hasMore);
-  this->Finalists.insert(
-    this->Finalists.end(), this->Tried.begin() + 1, this->Tried.begin() + 1 + Finals);
+  std::sort(this->Candidates.begin() + 1, this->Candidates.end(), hasMore);
+  const double least = Alike * this->Candidates.front().information;
+  const auto isOpen = [&](const Orientation& one) { return one.information >= least; };
+  const auto open =
+    std::count_if(this->Candidates.begin() + 1, this->Candidates.begin() + 1 + Finals, isOpen);
+  this->Refined = open > 0 ? 0 : 2; // none need be compared on the finer level
+  this->Candidates.resize(2 + std::max<std::ptrdiff_t>(0, open - 1));
 }
 
 bool OrientationSearch::step()
 {
-  if (this->Pair.reference.values.empty())
+  if (!this->Fine)
   {
     this->read();
     return true;
   }
-  if (this->Tried.size() < Trials)
+  if (this->Candidates.empty())
   {
-    Orientation one;
-    one.isMoved = !this->Tried.empty();
-    one.matrix = allOrientations()[one.isMoved ? this->Tried.size() - 1 : 0];
-    one.information = this->informationOf(one, settingsOf({ CoarseMm }, CoarseSamples, 2));
-    this->Tried.push_back(one);
-    if (this->Tried.size() == Trials)
+    this->glance();
+    return true;
+  }
+  if (this->Tried <= Searched)
+  {
+    this->search(this->Candidates[this->Tried], *this->Coarse);
+    if (this->Tried++ == Searched)
     {
       this->choose();
     }
-    return true;
   }
-  if (this->Refined < this->Finalists.size())
+  else if (this->Refined < this->Candidates.size())
   {
-    Orientation& one = this->Finalists[this->Refined++];
-    one.information = this->informationOf(one, settingsOf({ CoarseMm, FineMm }, FineSamples, 3));
-    if (this->Refined == this->Finalists.size())
+    this->search(this->Candidates[this->Refined++], *this->Fine);
+    if (this->Refined == this->Candidates.size())
     {
-      std::sort(this->Finalists.begin() + 1, this->Finalists.end(), hasMore);
+      std::sort(this->Candidates.begin() + 1, this->Candidates.end(), hasMore);
     }
   }
-  return this->Refined < this->Finalists.size();
+  return this->Tried <= Searched || this->Refined < this->Candidates.size();
 }
 
 double OrientationSearch::done() const
 {
-  return static_cast<double>(this->Tried.size() + this->Refined) / (Trials + 1 + Finals);
+  const double tried = static_cast<double>(this->Tried) / (Searched + 1);
+  const double refined = static_cast<double>(this->Refined) / (1 + Finals);
+  return 0.5 * (tried + std::min(1.0, refined));
 }
 
 namespace

@@ -4,13 +4,15 @@
 /// moved.
 ///
 /// A search that begins in a wrong orientation ends in some position, and its information does not
-/// tell that there is a better one. All 48 orientations along the axes of the volume are tried on a
-/// coarse level, and the best ones on a finer level.
+/// tell that there is a better one. All 48 orientations along the axes of the volume are compared
+/// on a coarse level. A search begins from the best of them. Those that match nearly as well as the
+/// reference as it is are searched on a finer level.
 #ifndef BrainShift_Orientations_h
 #define BrainShift_Orientations_h
 
 #include "Filters/Register/Alignment.h"
 
+#include <memory>
 #include <string>
 
 namespace brainshift
@@ -18,8 +20,9 @@ namespace brainshift
 /** An orientation of the reference, and its mutual information with the volume. */
 struct Orientation
 {
-  glm::dmat3 matrix{ 1.0 }; ///< along the axes of the volume: 0, 1 and -1
-  bool isMoved = false;     ///< the search began where the middles of the tissue meet
+  glm::dmat3 matrix{ 1.0 };    ///< along the axes of the volume: 0, 1 and -1
+  glm::dmat3 placement{ 1.0 }; ///< of the reference: `placement` x + `shift` (mm, world)
+  glm::dvec3 shift{ 0.0 };
   double information = 0.0; ///< nats, on the finer level, or on the coarse one while it is tried
 };
 
@@ -35,18 +38,20 @@ public:
    */
   OrientationSearch(const RegisteredPair& pair, const Lattice& bent);
 
-  /** Reads one volume or tries one orientation. False: all were tried. */
+  /** Reads one volume or searches from one orientation. False: it is finished. */
   bool step();
 
   double done() const; ///< fraction, 0 to 1
 
   /** The reference as it is, and the best other position; once it is finished. */
-  const Orientation& asItIs() const { return this->Finalists.front(); }
-  const Orientation& bestOther() const { return this->Finalists[1]; }
+  const Orientation& asItIs() const { return this->Candidates.front(); }
+  const Orientation& bestOther() const { return this->Candidates[1]; }
 
 private:
-  double informationOf(const Orientation& one, const AlignmentSettings& settings) const;
+  static Alignment placed(const Orientation& one, const Alignment& start);
   void read();
+  void glance();
+  void search(Orientation& one, const Alignment& start);
   void choose();
 
   const RegisteredPair& Whole;
@@ -54,8 +59,10 @@ private:
   RegisteredPair Pair;               // with few voxels
   glm::dvec3 RestMiddle{ 0.0 };      // of the tissue, mm, world
   glm::dvec3 ReferenceMiddle{ 0.0 }; // the same of the reference
-  std::vector<Orientation> Tried;
-  std::vector<Orientation> Finalists; // the first one is the reference as it is
+  std::unique_ptr<Alignment> Coarse; // as they begin, with the reference as it is
+  std::unique_ptr<Alignment> Fine;
+  std::vector<Orientation> Candidates; // the first one is the reference as it is
+  std::size_t Tried = 0;
   std::size_t Refined = 0;
 };
 

@@ -251,8 +251,8 @@ Volume filledAround(const Volume& reference, const Mask& fan, double spacingMm, 
   {
     values.values[i] *= inside.values[i];
   }
-  values = resampled(smoothed(values, spacingMm), to);
-  inside = resampled(smoothed(inside, spacingMm), to);
+  values = sampled(values, spacingMm, to);
+  inside = sampled(inside, spacingMm, to);
   constexpr float Known = 0.25f; // of the weight: the mean is of what lies nearby
   Volume result = values;
   std::vector<char> open(result.values.size(), 1);
@@ -361,14 +361,14 @@ void PyramidLevel::prepare()
 
 void PyramidLevel::readRest()
 {
-  this->Volumes.rest = resampled(smoothed(this->Pair.rest, this->SpacingMm), this->Samples);
+  this->Volumes.rest = sampled(this->Pair.rest, this->SpacingMm, this->Samples);
 }
 
 void PyramidLevel::readReference()
 {
   this->Volumes.reference = this->Fan
     ? filledAround(this->Pair.reference, *this->Fan, this->SpacingMm, this->Samples)
-    : resampled(smoothed(this->Pair.reference, this->SpacingMm), this->Samples);
+    : sampled(this->Pair.reference, this->SpacingMm, this->Samples);
 }
 
 // Beyond a fan the reference goes on smoothly, and beyond a mask the volume has its tissue. So only

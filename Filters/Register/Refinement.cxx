@@ -73,8 +73,9 @@ void Refinement::beginLevel()
 {
   if (!this->AtStart)
   {
-    this->AtStart =
-      std::make_unique<CostAndForces>(this->Level->compare(this->State.startControls));
+    const bool isThere = this->State.controls == this->State.startControls;
+    this->AtStart = std::make_unique<CostAndForces>(
+      isThere ? *this->Here : this->Level->compare(this->State.startControls));
   }
   if (this->Index == 0 && this->Found.empty() && this->Open.empty())
   {
@@ -127,8 +128,10 @@ void Refinement::takeStep()
 
 void Refinement::reportOverlap()
 {
-  // Of the first metric alone: another one has a larger support, and overlaps would not compare.
-  if (this->level().metric == this->Settings.plan.levels.front().metric)
+  // Of one support alone: with another one, overlaps would not compare.
+  const Support& first = this->Settings.plan.levels.front().metric->support;
+  const Support& here = this->level().metric->support;
+  if (here.along == first.along && here.across == first.across)
   {
     this->State.progress.overlap = this->Region.overlap(this->State.known, this->Level->grid());
   }

@@ -44,7 +44,7 @@ struct RefinementProgress
   double costAtStart = 0.0;  ///< of the lattice as it began, on the same level
   double movedMm = 0.0;      ///< longest move of a control point in the last step
   double stepFraction = 1.0; ///< smallest fraction of a step that the fold guard allowed
-  double overlap = 0.0;      ///< see ComparedRegion::overlap; on the levels of the first metric
+  double overlap = 0.0;      ///< see ComparedRegion::overlap; of levels with the first support
   double stiffness = 1.0;    ///< the factor in use; raised where tissue would have folded
   double done = 0.0;         ///< fraction of the most steps there may be, 0 to 1; 1 at the end
   bool isFinished = false;

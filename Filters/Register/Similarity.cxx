@@ -92,8 +92,32 @@ void LevelSamples::restrictTo(const HalfSpace& half)
   this->findStretches();
 }
 
+namespace
+{
+// The numbers at a position; `Numbers` is an integer, or a constant for vector instructions.
+template <typename Numbers>
+void readNumbers(const float* values, const Neighbours& at, Numbers numbers, float* to)
+{
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::bvec3 upper(corner & 1, corner & 2, corner & 4);
+    const glm::vec3 fractions = glm::mix(1.0f - at.within, at.within, upper);
+    const float weight = fractions.x * fractions.y * fractions.z;
+    const float* from = values +
+      numbers *
+        (at.first + (upper.x ? at.next[0] : 0) + (upper.y ? at.next[1] : 0) +
+          (upper.z ? at.next[2] : 0));
+    for (int n = 0; n < numbers; ++n)
+    {
+      to[n] += weight * from[n];
+    }
+  }
+}
+}
+
 std::vector<float> LevelSamples::read(const std::vector<float>& values, int numbers) const
 {
+  constexpr std::integral_constant<int, 12> OfSelfSimilarity;
   const Grid& grid = this->rows.samples();
   std::vector<float> result(values.size());
   const glm::vec3 last(grid.dimensions - 1);
@@ -102,23 +126,20 @@ std::vector<float> LevelSamples::read(const std::vector<float>& values, int numb
     {
       for (int j = 0; j < grid.dimensions.y; ++j)
       {
-        for (int i = 0; i < grid.dimensions.x; ++i)
+        const Stretch& counting =
+          this->stretches[static_cast<std::size_t>(k) * grid.dimensions.y + j];
+        for (int i = counting.first; i < counting.last; ++i)
         {
+          const std::size_t number = grid.offset(i, j, k);
+          if (this->weights[number] <= 0.0f)
+          {
+            continue;
+          }
           const Neighbours at = neighboursOf(
             grid.dimensions, glm::clamp(this->rows.position(i, j, k), glm::vec3(0.0f), last));
-          float* to = &result[grid.offset(i, j, k) * numbers];
-          for (int corner = 0; corner < 8; ++corner)
-          {
-            const glm::bvec3 upper(corner & 1, corner & 2, corner & 4);
-            const glm::vec3 fractions = glm::mix(1.0f - at.within, at.within, upper);
-            const float weight = fractions.x * fractions.y * fractions.z;
-            const std::size_t from = at.first + (upper.x ? at.next[0] : 0) +
-              (upper.y ? at.next[1] : 0) + (upper.z ? at.next[2] : 0);
-            for (int n = 0; n < numbers; ++n)
-            {
-              to[n] += weight * values[from * numbers + n];
-            }
-          }
+          float* to = &result[number * numbers];
+          numbers == OfSelfSimilarity ? readNumbers(values.data(), at, OfSelfSimilarity, to)
+                                      : readNumbers(values.data(), at, numbers, to);
         }
       }
     }

@@ -114,7 +114,10 @@ struct LevelSamples
     }
   }
 
-  /** The numbers of a volume at the samples; `numbers` of them for each point, interleaved. */
+  /**
+   * The numbers of a volume at the samples that count, 0 at the others; `numbers` of them for each
+   * point, interleaved.
+   */
   std::vector<float> read(const std::vector<float>& values, int numbers) const;
 
 private:

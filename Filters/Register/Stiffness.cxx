@@ -19,107 +19,204 @@ constexpr float Bending = 1.0f;
 constexpr float Converged = 1e-4f; // of the squared residual that a Newton step begins with
 constexpr int MostSolverSteps = 40;
 
-// The two axes of each of the six second derivatives.
-constexpr int FirstAxis[6] = { 0, 1, 2, 0, 0, 1 };
-constexpr int SecondAxis[6] = { 0, 1, 2, 1, 2, 2 };
+// Rows of a lattice as plain numbers, three for each control point, so that the compiler makes
+// vector instructions of all loops. Terms of the energy are taken row by row: the differences that
+// a term squares, and from them its derivatives, which are added to the rows that it depends on.
+constexpr int Axes = 3;
 
-// The stress of the cell that begins at a control point, and the curvature at the point itself.
-struct Tension
+// A row of differences, with a zero point before and behind it.
+class Differences
 {
-  glm::mat3 stress{ 0.0f };              // column: along that axis; for each mm of the corners
-  std::array<glm::vec3, 6> curvatures{}; // second derivatives times their weight
+public:
+  explicit Differences(int points)
+    : Values(static_cast<std::size_t>(points + 2) * Axes, 0.0f)
+  {
+  }
+  float* row() { return this->Values.data() + Axes; }
+
+private:
+  std::vector<float> Values;
 };
 
-glm::ivec3 stepAlong(int axis)
+class EnergyRows
 {
-  glm::ivec3 step(0);
-  step[axis] = 1;
-  return step;
+public:
+  EnergyRows(const Grid& lattice, const std::vector<glm::vec3>& displacements,
+    std::vector<glm::vec3>& derivatives)
+    : Sides(lattice.dimensions)
+    , Numbers(Axes * lattice.dimensions.x)
+    , From(&displacements.front().x)
+    , To(&derivatives.front().x)
+    , A(lattice.dimensions.x)
+    , B(lattice.dimensions.x)
+    , C(lattice.dimensions.x)
+  {
+  }
+
+  // Weight times the square of the second difference along x, and along y or z by `step`.
+  void addAlongX(int j, int k, float weight);
+  void addAlong(int j, int k, const glm::ivec2& step, float weight);
+
+  // The same of the mixed difference along x and `step`, and along y and z.
+  void addMixedWithX(int j, int k, const glm::ivec2& step, float weight);
+  void addMixed(int j, int k, float weight);
+
+  // Elastic energy of the cells between four rows. `perMm`: a quarter of a step along each axis.
+  void addElastic(int j, int k, const glm::vec3& perMm);
+
+private:
+  std::ptrdiff_t at(int j, int k) const
+  {
+    return (static_cast<std::ptrdiff_t>(k) * this->Sides.y + j) * this->Numbers;
+  }
+  const float* from(int j, int k) const { return this->From + this->at(j, k); }
+  float* to(int j, int k) const { return this->To + this->at(j, k); }
+  void takeStresses(const glm::vec3& perMm);
+
+  glm::ivec3 Sides;
+  int Numbers; // of a row
+  const float* From;
+  float* To;
+  Differences A;
+  Differences B;
+  Differences C;
+};
+
+void EnergyRows::addAlongX(int j, int k, float weight)
+{
+  const float* d = this->from(j, k);
+  float* to = this->to(j, k);
+  float* v = this->A.row();
+  for (int n = Axes; n < this->Numbers - Axes; ++n)
+  {
+    v[n] = weight * (d[n - Axes] - 2.0f * d[n] + d[n + Axes]);
+  }
+  std::fill(v, v + Axes, 0.0f);
+  std::fill(v + this->Numbers - Axes, v + this->Numbers, 0.0f);
+  for (int n = 0; n < this->Numbers; ++n)
+  {
+    to[n] += v[n - Axes] - 2.0f * v[n] + v[n + Axes];
+  }
 }
 
-bool isWithin(const glm::ivec3& index, const glm::ivec3& dimensions)
+void EnergyRows::addAlong(int j, int k, const glm::ivec2& step, float weight)
 {
-  return index.x >= 0 && index.y >= 0 && index.z >= 0 && index.x < dimensions.x &&
-    index.y < dimensions.y && index.z < dimensions.z;
+  const float* before = this->from(j - step.x, k - step.y);
+  const float* d = this->from(j, k);
+  const float* behind = this->from(j + step.x, k + step.y);
+  float* toBefore = this->to(j - step.x, k - step.y);
+  float* to = this->to(j, k);
+  float* toBehind = this->to(j + step.x, k + step.y);
+  for (int n = 0; n < this->Numbers; ++n)
+  {
+    const float v = weight * (before[n] - 2.0f * d[n] + behind[n]);
+    toBefore[n] += v;
+    to[n] -= 2.0f * v;
+    toBehind[n] += v;
+  }
 }
 
-// All points of a lattice, slabs on several cores.
-template <typename Visit>
-void forEachControl(const Grid& grid, const Visit& visit)
+void EnergyRows::addMixedWithX(int j, int k, const glm::ivec2& step, float weight)
 {
-  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
-    glm::ivec3 index;
-    for (index.z = static_cast<int>(begin); index.z < end; ++index.z)
+  const float* d = this->from(j, k);
+  const float* behind = this->from(j + step.x, k + step.y);
+  float* to = this->to(j, k);
+  float* toBehind = this->to(j + step.x, k + step.y);
+  float* v = this->A.row();
+  for (int n = 0; n < this->Numbers - Axes; ++n)
+  {
+    v[n] = 2.0f * weight * (behind[n + Axes] - behind[n] - d[n + Axes] + d[n]);
+  }
+  std::fill(v + this->Numbers - Axes, v + this->Numbers, 0.0f);
+  for (int n = 0; n < this->Numbers; ++n)
+  {
+    const float change = v[n] - v[n - Axes];
+    to[n] += change;
+    toBehind[n] -= change;
+  }
+}
+
+void EnergyRows::addMixed(int j, int k, float weight)
+{
+  const float* rows[4];
+  float* toRows[4];
+  for (int row = 0; row < 4; ++row)
+  {
+    rows[row] = this->from(j + (row & 1), k + (row >> 1));
+    toRows[row] = this->to(j + (row & 1), k + (row >> 1));
+  }
+  for (int n = 0; n < this->Numbers; ++n)
+  {
+    const float v = 2.0f * weight * (rows[3][n] - rows[1][n] - rows[2][n] + rows[0][n]);
+    toRows[0][n] += v;
+    toRows[1][n] -= v;
+    toRows[2][n] -= v;
+    toRows[3][n] += v;
+  }
+}
+
+// A, B and C are derivatives along x, y and z for each cell of a row; stresses replace them.
+void EnergyRows::takeStresses(const glm::vec3& perMm)
+{
+  float* rows[Axes] = { this->A.row(), this->B.row(), this->C.row() };
+  for (int n = 0; n < this->Numbers - Axes; n += Axes)
+  {
+    float gradient[Axes][Axes];
+    for (int axis = 0; axis < Axes; ++axis)
     {
-      for (index.y = 0; index.y < grid.dimensions.y; ++index.y)
+      std::copy(rows[axis] + n, rows[axis] + n + Axes, gradient[axis]);
+    }
+    const float growth = Compression * (gradient[0][0] + gradient[1][1] + gradient[2][2]);
+    for (int axis = 0; axis < Axes; ++axis)
+    {
+      for (int c = 0; c < Axes; ++c)
       {
-        for (index.x = 0; index.x < grid.dimensions.x; ++index.x)
-        {
-          visit(static_cast<const glm::ivec3&>(index), grid.offset(index.x, index.y, index.z));
-        }
+        const float shear = Shear * (gradient[axis][c] + gradient[c][axis]);
+        rows[axis][n + c] = perMm[axis] * (shear + (axis == c ? growth : 0.0f));
       }
     }
-  });
+  }
+  for (float* row : rows)
+  {
+    std::fill(row + this->Numbers - Axes, row + this->Numbers, 0.0f);
+  }
 }
 
-// The numbers of neighbours beside a point of an array.
-struct Steps
+void EnergyRows::addElastic(int j, int k, const glm::vec3& perMm)
 {
-  explicit Steps(const Grid& grid)
-    : along{ 1, static_cast<std::ptrdiff_t>(grid.offset(0, 1, 0)),
-      static_cast<std::ptrdiff_t>(grid.offset(0, 0, 1)) }
+  const float* d[4];
+  float* to[4];
+  for (int row = 0; row < 4; ++row)
   {
+    d[row] = this->from(j + (row & 1), k + (row >> 1));
+    to[row] = this->to(j + (row & 1), k + (row >> 1));
   }
-  std::ptrdiff_t along[3];
-
-  std::ptrdiff_t toCorner(int corner) const
+  float* x = this->A.row();
+  float* y = this->B.row();
+  float* z = this->C.row();
+  for (int n = 0; n < this->Numbers; ++n)
   {
-    return (corner & 1 ? this->along[0] : 0) + (corner & 2 ? this->along[1] : 0) +
-      (corner & 4 ? this->along[2] : 0);
+    x[n] = d[0][n] + d[1][n] + d[2][n] + d[3][n];
+    y[n] = d[1][n] + d[3][n] - d[0][n] - d[2][n];
+    z[n] = d[2][n] + d[3][n] - d[0][n] - d[1][n];
   }
-};
-
-// The stress of the cell whose first corner is at `first`.
-glm::mat3 stressOf(const glm::vec3* first, const Steps& steps, const glm::vec3& perMm)
-{
-  glm::mat3 gradient(0.0f); // column: derivative along that axis
-  for (int corner = 0; corner < 8; ++corner)
+  for (int n = 0; n < this->Numbers - Axes; ++n)
   {
-    const glm::vec3& d = first[steps.toCorner(corner)];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      gradient[axis] += (corner >> axis & 1) ? d : -d;
-    }
+    x[n] = perMm.x * (x[n + Axes] - x[n]);
+    y[n] = perMm.y * (y[n + Axes] + y[n]);
+    z[n] = perMm.z * (z[n + Axes] + z[n]);
   }
-  for (int axis = 0; axis < 3; ++axis)
+  this->takeStresses(perMm);
+  for (int n = 0; n < this->Numbers; ++n)
   {
-    gradient[axis] *= perMm[axis];
+    const float alongX = x[n - Axes] - x[n];
+    const float alongY = y[n - Axes] + y[n];
+    const float alongZ = z[n - Axes] + z[n];
+    to[0][n] += alongX - alongY - alongZ;
+    to[1][n] += alongX + alongY - alongZ;
+    to[2][n] += alongX - alongY + alongZ;
+    to[3][n] += alongX + alongY + alongZ;
   }
-  glm::mat3 stress = Shear * (gradient + glm::transpose(gradient));
-  const float growth = Compression * (gradient[0][0] + gradient[1][1] + gradient[2][2]);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    stress[axis][axis] += growth;
-    stress[axis] *= perMm[axis];
-  }
-  return stress;
-}
-
-// The second difference around a point along two axes, counted twice where they differ.
-glm::vec3 secondDifference(
-  const glm::vec3* d, const glm::ivec3& at, const glm::ivec3& sides, const Steps& steps, int c)
-{
-  const int a = FirstAxis[c];
-  const int b = SecondAxis[c];
-  const std::ptrdiff_t toA = steps.along[a];
-  const std::ptrdiff_t toB = steps.along[b];
-  if (a == b)
-  {
-    const bool isWhole = at[a] > 0 && at[a] + 1 < sides[a];
-    return isWhole ? d[-toA] - 2.0f * d[0] + d[toA] : glm::vec3(0.0f);
-  }
-  const bool isWhole = at[a] + 1 < sides[a] && at[b] + 1 < sides[b];
-  return isWhole ? 2.0f * (d[toA + toB] - d[toA] - d[toB] + d[0]) : glm::vec3(0.0f);
 }
 }
 
@@ -139,57 +236,43 @@ std::vector<glm::vec3> Stiffness::times(const std::vector<glm::vec3>& displaceme
 {
   const glm::ivec3 sides = this->Lattice.dimensions;
   const glm::vec3 h(this->Lattice.spacing);
-  const glm::vec3 perMm = 0.25f / h;
   const float mean = std::cbrt(h.x * h.y * h.z);
-  const Steps steps(this->Lattice);
-  std::vector<Tension> tensions(displacements.size());
-  forEachControl(this->Lattice, [&](const glm::ivec3& at, std::size_t number) {
-    const glm::vec3* d = &displacements[number];
-    Tension& tension = tensions[number];
-    if (isWithin(at + 1, sides))
+  const auto weight = [&](int a, int b) {
+    return this->Factor * Bending * mean * mean / (h[a] * h[a] * h[b] * h[b]);
+  };
+  std::vector<glm::vec3> result(displacements.size(), glm::vec3(0.0f));
+  EnergyRows rows(this->Lattice, displacements, result);
+  const glm::vec3 perMm = 0.25f * std::sqrt(this->Factor) / h;
+  for (int k = 0; k < sides.z; ++k)
+  {
+    for (int j = 0; j < sides.y; ++j)
     {
-      tension.stress = stressOf(d, steps, perMm);
-    }
-    for (int c = 0; c < 6; ++c)
-    {
-      const glm::vec3 squares = h * h;
-      tension.curvatures[c] = Bending * mean * mean /
-        (squares[FirstAxis[c]] * squares[SecondAxis[c]]) * secondDifference(d, at, sides, steps, c);
-    }
-  });
-  std::vector<glm::vec3> result(displacements.size());
-  forEachControl(this->Lattice, [&](const glm::ivec3& at, std::size_t number) {
-    const Tension* own = &tensions[number];
-    glm::vec3 sum(0.0f);
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      if (isWithin(at - glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2), sides))
+      const bool hasRow = j + 1 < sides.y;
+      const bool hasSlab = k + 1 < sides.z;
+      rows.addAlongX(j, k, weight(0, 0));
+      if (hasRow)
       {
-        const glm::mat3& stress = own[-steps.toCorner(corner)].stress;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          sum += (corner >> axis & 1) ? stress[axis] : -stress[axis];
-        }
+        rows.addMixedWithX(j, k, { 1, 0 }, weight(0, 1));
+      }
+      if (hasSlab)
+      {
+        rows.addMixedWithX(j, k, { 0, 1 }, weight(0, 2));
+      }
+      if (hasRow && hasSlab)
+      {
+        rows.addMixed(j, k, weight(1, 2));
+        rows.addElastic(j, k, perMm);
+      }
+      if (hasRow && j > 0)
+      {
+        rows.addAlong(j, k, { 1, 0 }, weight(1, 1));
+      }
+      if (hasSlab && k > 0)
+      {
+        rows.addAlong(j, k, { 0, 1 }, weight(2, 2));
       }
     }
-    for (int c = 0; c < 6; ++c)
-    {
-      const int a = FirstAxis[c];
-      const int b = SecondAxis[c];
-      const auto curvature = [&](const glm::ivec3& offset) {
-        return isWithin(at + offset, sides)
-          ? own[offset.x * steps.along[0] + offset.y * steps.along[1] + offset.z * steps.along[2]]
-              .curvatures[c]
-          : glm::vec3(0.0f);
-      };
-      const glm::ivec3 toA = stepAlong(a);
-      const glm::ivec3 toB = stepAlong(b);
-      sum += a == b
-        ? curvature(-toA) - 2.0f * own->curvatures[c] + curvature(toA)
-        : own->curvatures[c] - curvature(-toA) - curvature(-toB) + curvature(-toA - toB);
-    }
-    result[number] = this->Factor * sum;
-  });
+  }
   return result;
 }
 

@@ -123,13 +123,14 @@ Verification::Verification(RegisteredPair pair, const Lattice& result, const Ref
 bool Verification::finishCheck()
 {
   this->Found = verdictOf(this->Check.figures(), this->Limits);
-  this->IsFinished = !this->IsOfHeads;
-  if (this->IsOfHeads)
+  // Of a few samples, chance makes one orientation better than another.
+  this->IsFinished = !this->IsOfHeads || this->Found.trust == Trust::Unchecked;
+  if (!this->IsFinished)
   {
     this->Inside =
       std::make_unique<InsideCheck>(this->Check.pair(), this->Result, this->Limits.halves);
   }
-  return this->IsOfHeads;
+  return !this->IsFinished;
 }
 
 bool Verification::finishInside()

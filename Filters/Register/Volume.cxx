@@ -180,15 +180,26 @@ Grid coarseGrid(const Grid& source, double spacingMm)
   return result;
 }
 
+namespace
+{
+// The weights that smooth points of a spacing for one of `spacingMm`; 1 alone where none is needed.
+std::vector<float> smoothingWeights(double pointMm, double spacingMm)
+{
+  const double factor = spacingMm / pointMm;
+  return factor > 1.0 ? gaussian(std::max(LeastDeviation, DeviationPerFactor * factor))
+                      : std::vector<float>{ 1.0f };
+}
+}
+
 Volume smoothed(const Volume& source, double spacingMm)
 {
   Volume result = source;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double factor = spacingMm / source.grid.spacing[axis];
-    if (factor > 1.0)
+    const std::vector<float> weights = smoothingWeights(source.grid.spacing[axis], spacingMm);
+    if (weights.size() > 1)
     {
-      smoothAlong(result, axis, gaussian(std::max(LeastDeviation, DeviationPerFactor * factor)));
+      smoothAlong(result, axis, weights);
     }
   }
   return result;
@@ -204,6 +215,128 @@ Volume resampled(const Volume& source, const Grid& to)
       trilinear(source.values.data(), neighboursOf(source.grid.dimensions, glm::vec3(at))).value;
   });
   return result;
+}
+
+namespace
+{
+// The points of a line, from `first` on, that a point of another line is read from.
+struct LineTaps
+{
+  int first = 0;
+  std::vector<float> weights;
+};
+
+// Smooths a line of `count` points, and reads it at a position in points, linear between them.
+LineTaps tapsAt(double position, int count, const std::vector<float>& smoothing)
+{
+  const int radius = static_cast<int>(smoothing.size() / 2);
+  const float at = static_cast<float>(glm::clamp(position, 0.0, count - 1.0));
+  const int low = std::min(static_cast<int>(at), count - 2);
+  const float upper = at - static_cast<float>(low);
+  LineTaps taps;
+  taps.first = std::max(0, low - radius);
+  taps.weights.assign(std::min(count - 1, low + 1 + radius) - taps.first + 1, 0.0f);
+  for (int k = -radius; k <= radius; ++k)
+  {
+    for (const int step : { 0, 1 })
+    {
+      const int from = std::clamp(low + step + k, 0, count - 1); // the end holds beyond it
+      taps.weights[from - taps.first] += smoothing[k + radius] * (step ? upper : 1.0f - upper);
+    }
+  }
+  return taps;
+}
+
+// For each point of `to` along an axis.
+std::vector<LineTaps> tapsAlong(
+  const Grid& from, const Grid& to, int axis, const std::vector<float>& smoothing)
+{
+  std::vector<LineTaps> taps;
+  for (int i = 0; i < to.dimensions[axis]; ++i)
+  {
+    glm::dvec3 point(0.0);
+    point[axis] = i;
+    const double position = from.gridFromWorld(to.worldFromGrid(point))[axis];
+    taps.push_back(tapsAt(position, from.dimensions[axis], smoothing));
+  }
+  return taps;
+}
+
+// Replaces a slowest axis: `inner` values lie beside each other for each point of the line.
+std::vector<float> readAlong(
+  const std::vector<float>& values, const std::vector<LineTaps>& taps, std::size_t inner, int count)
+{
+  const auto results = static_cast<std::int64_t>(taps.size());
+  const std::size_t line = inner * count;
+  const auto outer = static_cast<std::int64_t>(values.size() / line);
+  std::vector<float> result(inner * results * outer, 0.0f);
+  parallelFor(0, outer * results, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t n = begin; n < end; ++n)
+    {
+      const LineTaps& tap = taps[n % results];
+      const float* from = values.data() + n / results * line + inner * tap.first;
+      float* to = result.data() + n * inner;
+      for (const float weight : tap.weights)
+      {
+        for (std::size_t i = 0; i < inner; ++i)
+        {
+          to[i] += weight * from[i];
+        }
+        from += inner;
+      }
+    }
+  });
+  return result;
+}
+
+// The same for the fastest axis.
+std::vector<float> readRows(
+  const std::vector<float>& values, const std::vector<LineTaps>& taps, int count)
+{
+  const auto rows = static_cast<std::int64_t>(values.size() / count);
+  std::vector<float> result(taps.size() * rows);
+  parallelFor(0, rows, 64, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t row = begin; row < end; ++row)
+    {
+      float* to = result.data() + row * static_cast<std::int64_t>(taps.size());
+      for (const LineTaps& tap : taps)
+      {
+        const float* from = values.data() + row * count + tap.first;
+        float sum = 0.0f;
+        for (const float weight : tap.weights)
+        {
+          sum += weight * *from++;
+        }
+        *to++ = sum;
+      }
+    }
+  });
+  return result;
+}
+
+bool haveSameAxes(const Grid& a, const Grid& b)
+{
+  constexpr double Rounding = 1e-9;
+  const glm::dmat3 apart = a.direction - b.direction;
+  return std::max({ glm::length(apart[0]), glm::length(apart[1]), glm::length(apart[2]) }) <
+    Rounding;
+}
+}
+
+Volume sampled(const Volume& source, double spacingMm, const Grid& to)
+{
+  if (!haveSameAxes(source.grid, to))
+  {
+    return resampled(smoothed(source, spacingMm), to);
+  }
+  const glm::ivec3 sides = source.grid.dimensions;
+  const auto taps = [&](int axis) {
+    return tapsAlong(source.grid, to, axis, smoothingWeights(source.grid.spacing[axis], spacingMm));
+  };
+  std::vector<float> values =
+    readAlong(source.values, taps(2), static_cast<std::size_t>(sides.x) * sides.y, sides.z);
+  values = readAlong(values, taps(1), sides.x, sides.y);
+  return { to, readRows(values, taps(0), sides.x) };
 }
 
 void boxSum(Volume& volume, const glm::ivec3& radii)
@@ -230,7 +363,13 @@ Volume weightsOf(const Grid& grid, const Region& region, const Support& support)
     missing.values[number] = counts(region, world) ? 0.0f : 1.0f;
   });
   Volume result{ grid, std::vector<float>(grid.count(), 1.0f) };
-  for (int axis = 0; axis < 3; ++axis)
+  const auto isMissing = [](float number) { return number > 0.0f; };
+  if (std::none_of(missing.values.begin(), missing.values.end(), isMissing))
+  {
+    return result;
+  }
+  const int boxes = support.along == support.across ? 1 : 3; // 1: all three are the same
+  for (int axis = 0; axis < boxes; ++axis)
   {
     glm::ivec3 radii(support.across);
     radii[axis] = support.along;
@@ -259,9 +398,13 @@ Range rangeOf(const std::vector<float>& values)
   {
     return {};
   }
-  std::sort(some.begin(), some.end());
-  const std::size_t cut = static_cast<std::size_t>(CutOffFraction * some.size());
-  const Range found{ some[cut], some[some.size() - 1 - cut] };
+  const auto cut = static_cast<std::ptrdiff_t>(CutOffFraction * some.size());
+  const auto valueAt = [&](std::ptrdiff_t number) {
+    std::nth_element(some.begin(), some.begin() + number, some.end());
+    return some[number];
+  };
+  const auto last = static_cast<std::ptrdiff_t>(some.size()) - 1;
+  const Range found{ valueAt(cut), valueAt(last - cut) };
   return found.high > found.low ? found : Range{ found.low, found.low + 1.0f };
 }
 

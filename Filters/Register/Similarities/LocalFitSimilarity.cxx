@@ -8,7 +8,7 @@ namespace brainshift
 {
 namespace
 {
-void add(const float* from, std::size_t count, float* to)
+inline void add(const float* from, std::size_t count, float* to)
 {
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -17,7 +17,7 @@ void add(const float* from, std::size_t count, float* to)
 }
 
 // Sums of a line's points for its window `number`. A point has `inner` numbers.
-void gatherOne(
+inline void gatherOne(
   const float* points, int count, std::size_t inner, const glm::ivec2& numberAndRadius, float* to)
 {
   std::fill(to, to + inner, 0.0f);
@@ -30,7 +30,7 @@ void gatherOne(
 }
 
 // Sums of the windows that hold point `number` of a line of `count` points.
-void spreadOne(
+inline void spreadOne(
   const float* windows, int count, std::size_t inner, const glm::ivec2& numberAndRadius, float* to)
 {
   std::fill(to, to + inner, 0.0f);
@@ -55,11 +55,11 @@ struct Pass
   One one = nullptr;
 };
 
-Block along(const Block& from, const Pass& pass)
+void along(const Block& from, const Pass& pass, Block& to)
 {
   glm::ivec3 sides = from.dimensions;
   sides[pass.axis] = pass.results;
-  Block to(sides, from.numbers);
+  to.reshape(sides, from.numbers);
   std::size_t inner = static_cast<std::size_t>(from.numbers) * sides.x;
   inner *= pass.axis == 2 ? sides.y : 1;
   const std::int64_t outer = pass.axis == 2 ? 1 : sides.z;
@@ -71,44 +71,66 @@ Block along(const Block& from, const Pass& pass)
         { n % pass.results, pass.radius }, to.values.data() + n * inner);
     }
   });
-  return to;
+}
+}
+
+namespace
+{
+// `numbers` as a constant where it is one of some, so that the compiler makes vector instructions.
+template <typename Work>
+void withNumbers(int numbers, const Work& work)
+{
+  switch (numbers)
+  {
+    case 6:
+      work(std::integral_constant<int, 6>());
+      break;
+    case 10:
+      work(std::integral_constant<int, 10>());
+      break;
+    default:
+      work(numbers);
+  }
 }
 }
 
 void Windows::gatherRow(const float* points, int count, int numbers, float* windows) const
 {
-  for (int number = 0; number < windowsAlong(count); ++number)
-  {
-    gatherOne(points, count, numbers, { number, this->Radius }, windows + number * numbers);
-  }
+  withNumbers(numbers, [&](const auto each) {
+    for (int number = 0; number < windowsAlong(count); ++number)
+    {
+      gatherOne(points, count, each, { number, this->Radius }, windows + number * each);
+    }
+  });
 }
 
 void Windows::spreadRow(const float* windows, int count, int numbers, float* points) const
 {
-  for (int number = 0; number < count; ++number)
-  {
-    spreadOne(windows, count, numbers, { number, this->Radius }, points + number * numbers);
-  }
+  withNumbers(numbers, [&](const auto each) {
+    for (int number = 0; number < count; ++number)
+    {
+      spreadOne(windows, count, each, { number, this->Radius }, points + number * each);
+    }
+  });
 }
 
-Block Windows::gathered(const Block& rows) const
+void Windows::gather(const Block& rows, Block& windows)
 {
   const glm::ivec3 points = rows.dimensions;
-  const Block columns =
-    along(rows, { 1, points.y, windowsAlong(points.y), this->Radius, gatherOne });
-  return along(columns, { 2, points.z, windowsAlong(points.z), this->Radius, gatherOne });
+  along(rows, { 1, points.y, windowsAlong(points.y), this->Radius, gatherOne }, this->Between);
+  along(this->Between, { 2, points.z, windowsAlong(points.z), this->Radius, gatherOne }, windows);
 }
 
-Block Windows::spread(const Block& windows, const glm::ivec3& points) const
+void Windows::spread(const Block& windows, const glm::ivec3& points, Block& rows)
 {
-  const Block slabs = along(windows, { 2, points.z, points.z, this->Radius, spreadOne });
-  return along(slabs, { 1, points.y, points.y, this->Radius, spreadOne });
+  along(windows, { 2, points.z, points.z, this->Radius, spreadOne }, this->Between);
+  along(this->Between, { 1, points.y, points.y, this->Radius, spreadOne }, rows);
 }
 
 namespace
 {
-constexpr float LeastWindow = 0.3f;            // fraction of its samples that a window must have
-constexpr float LeastVarianceFraction = 0.02f; // of the mean variance of a volume's windows
+constexpr float LeastWindow = 0.3f;   // fraction of its samples that a window must have
+constexpr float SamplesForOne = 2.0f; // for each one of a checkerboard
 
 // Sums over a window; G is the second term. Its results for its samples (Left) replace them.
 enum Sum
@@ -160,7 +182,7 @@ void toFractions(std::vector<float>& values, const std::vector<float>& weights)
 
 // The variance of the values that count in each window.
 std::vector<float> windowVariances(
-  const Windows& around, const std::vector<float>& values, const Volume& weights)
+  Windows& around, const std::vector<float>& values, const Volume& weights)
 {
   constexpr int Numbers = 3;
   const glm::ivec3 sides = weights.grid.dimensions;
@@ -182,7 +204,8 @@ std::vector<float> windowVariances(
       }
     }
   });
-  const Block windows = around.gathered(rows);
+  Block windows;
+  around.gather(rows, windows);
   std::vector<float> variances;
   for (std::size_t n = 0; n < windows.values.size(); n += Numbers)
   {
@@ -194,10 +217,10 @@ std::vector<float> windowVariances(
 }
 
 // A variance below which a window is taken for flat.
-float leastVariance(const std::vector<float>& variances, float ridge)
+float leastVariance(const std::vector<float>& variances, float fraction, float ridge)
 {
   const double sum = std::accumulate(variances.begin(), variances.end(), 0.0);
-  return std::max(ridge, static_cast<float>(LeastVarianceFraction * sum / variances.size()));
+  return std::max(ridge, static_cast<float>(fraction * sum / variances.size()));
 }
 }
 
@@ -212,17 +235,14 @@ struct LocalFitSimilarity::Work
   {
   }
 
-  void clear()
-  {
-    std::fill(this->weight.begin(), this->weight.end(), 0.0f);
-    std::fill(this->rows.values.begin(), this->rows.values.end(), 0.0f);
-  }
+  void clear() { std::fill(this->weight.begin(), this->weight.end(), 0.0f); }
 
   std::vector<float> value;     // of the reference at the samples
   std::vector<float> weight;    // of the samples; 0: not compared
   std::vector<glm::vec3> slope; // of the reference for each mm that the controls move
   Block rows;                   // Sum, gathered along x alone
   Block windows;                // Sum, then Left
+  Block lefts;                  // Left, spread along z and y
   std::vector<double> slabSums; // of the windows' cost
   std::vector<double> slabCounts;
 };
@@ -236,13 +256,15 @@ LocalFitSimilarity::LocalFitSimilarity(
   , Rest(std::move(level.rest.values))
   , Reference(std::move(level.reference))
   , Ridge(fit.ridge)
+  , IsThin(fit.isThin)
 {
   toFractions(this->Rest, level.restWeights.values);
   toFractions(this->Reference.values, level.referenceWeights.values);
-  this->LeastVariance = leastVariance(
-    windowVariances(this->Around, this->Reference.values, level.referenceWeights), this->Ridge);
+  this->LeastVariance =
+    leastVariance(windowVariances(this->Around, this->Reference.values, level.referenceWeights),
+      fit.leastVariance, this->Ridge);
   const std::vector<float> variances = windowVariances(this->Around, this->Rest, level.restWeights);
-  const float least = leastVariance(variances, this->Ridge);
+  const float least = leastVariance(variances, fit.leastVariance, this->Ridge);
   for (const float variance : variances)
   {
     this->Varies.push_back(variance > least ? 1 : 0);
@@ -250,6 +272,10 @@ LocalFitSimilarity::LocalFitSimilarity(
   this->readSecond(level, fit.second);
   this->Rest = this->Samples.read(this->Rest, 1);
   this->leaveOutIdleSamples();
+  if (this->IsThin)
+  {
+    this->thinOut();
+  }
 }
 
 void LocalFitSimilarity::readSecond(const LevelVolumes& level, SecondTerm second)
@@ -279,7 +305,8 @@ void LocalFitSimilarity::leaveOutIdleSamples()
   const glm::ivec3 sides = this->Samples.rows.samples().dimensions;
   Block windows({ windowsAlong(sides.x), windowsAlong(sides.y), windowsAlong(sides.z) }, 1);
   std::copy(this->Varies.begin(), this->Varies.end(), windows.values.begin());
-  const Block rows = this->Around.spread(windows, sides);
+  Block rows;
+  this->Around.spread(windows, sides, rows);
   std::vector<float> needed(sides.x);
   for (int k = 0; k < sides.z; ++k)
   {
@@ -290,6 +317,24 @@ void LocalFitSimilarity::leaveOutIdleSamples()
       for (int i = 0; i < sides.x; ++i)
       {
         weights[i] = needed[i] > 0.0f ? weights[i] : 0.0f;
+      }
+    }
+  }
+  this->Samples.findStretches();
+}
+
+// The middles of windows have even indices and stay.
+void LocalFitSimilarity::thinOut()
+{
+  const glm::ivec3 sides = this->Samples.rows.samples().dimensions;
+  std::size_t number = 0;
+  for (int k = 0; k < sides.z; ++k)
+  {
+    for (int j = 0; j < sides.y; ++j)
+    {
+      for (int i = 0; i < sides.x; ++i, ++number)
+      {
+        this->Samples.weights[number] *= (i + j + k) % 2 == 0 ? 1.0f : 0.0f;
       }
     }
   }
@@ -322,7 +367,7 @@ void LocalFitSimilarity::takeSample(
   }
 }
 
-void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements, Work& work) const
+void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements, Work& work)
 {
   const LevelSamples& samples = this->Samples;
   const glm::ivec3 sides = samples.rows.samples().dimensions;
@@ -341,15 +386,16 @@ void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements
     }
     return false;
   });
-  work.windows = this->Around.gathered(work.rows);
+  this->Around.gather(work.rows, work.windows);
 }
 
 void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, double& windows) const
 {
   const float samples = numbers[Count];
   const float side = static_cast<float>(this->Around.side());
+  const float all = side * side * side / (this->IsThin ? SamplesForOne : 1.0f);
   float left[Lefts] = {};
-  if (counts && samples > LeastWindow * side * side * side)
+  if (counts && samples > LeastWindow * all)
   {
     const float p = numbers[P] / samples;
     const float v = numbers[V] / samples;
@@ -372,21 +418,21 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
       explained = a * vp + b * vg;
     }
     // A window without variance has no information: its cost is 1, whatever moves.
-    const float all = vv + this->LeastVariance;
-    const float unexplained = std::max(0.0f, all - explained);
-    sum += unexplained / all;
+    const float variance = vv + this->LeastVariance;
+    const float unexplained = std::max(0.0f, variance - explained);
+    sum += unexplained / variance;
     windows += 1.0;
-    left[Scale] = 1.0f / (all * samples);
+    left[Scale] = 1.0f / (variance * samples);
     left[ScaleA] = left[Scale] * a;
     left[ScaleB] = left[Scale] * b;
     left[ScaleC] = left[Scale] * (v - a * p - b * g);
-    left[Loss] = left[Scale] * unexplained / all;
+    left[Loss] = left[Scale] * unexplained / variance;
     left[LossMean] = left[Loss] * v;
   }
   std::copy(left, left + Lefts, numbers);
 }
 
-void LocalFitSimilarity::fitWindows(Work& work) const
+void LocalFitSimilarity::fitWindows(Work& work)
 {
   const Grid& grid = this->Samples.rows.samples();
   const glm::ivec3 sides = work.windows.dimensions;
@@ -408,7 +454,7 @@ void LocalFitSimilarity::fitWindows(Work& work) const
       }
     }
   });
-  work.windows = this->Around.spread(work.windows, grid.dimensions);
+  this->Around.spread(work.windows, grid.dimensions, work.lefts);
 }
 
 ControlForces LocalFitSimilarity::takeForces(
@@ -416,7 +462,7 @@ ControlForces LocalFitSimilarity::takeForces(
 {
   const LevelSamples& samples = this->Samples;
   const Grid& grid = samples.rows.samples();
-  const int numbers = work.windows.numbers;
+  const int numbers = work.lefts.numbers;
   return samples.rows.visitRows(displacements, [&](const SampleRow& row) {
     const LevelSamples::Stretch stretch =
       samples.stretches[static_cast<std::size_t>(row.k) * grid.dimensions.y + row.j];
@@ -425,8 +471,7 @@ ControlForces LocalFitSimilarity::takeForces(
       return false;
     }
     std::vector<float> lefts(static_cast<std::size_t>(grid.dimensions.x) * numbers);
-    this->Around.spreadRow(
-      work.windows.row(row.j, row.k), grid.dimensions.x, numbers, lefts.data());
+    this->Around.spreadRow(work.lefts.row(row.j, row.k), grid.dimensions.x, numbers, lefts.data());
     for (int i = stretch.first; i < stretch.last; ++i)
     {
       const std::size_t n = grid.offset(i, row.j, row.k);
@@ -452,6 +497,12 @@ ControlForces LocalFitSimilarity::takeForces(
   });
 }
 
+void LocalFitSimilarity::restrictTo(const HalfSpace& half)
+{
+  this->Samples.restrictTo(half);
+  this->Known = nullptr; // rows that hold no sample any more are zero
+}
+
 CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacements)
 {
   if (!this->Known)
@@ -465,16 +516,17 @@ CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displace
   this->fitWindows(work);
   CostAndForces result =
     averaged(work.slabSums, work.slabCounts, this->takeForces(displacements, work));
-  result.samples = std::accumulate(work.weight.begin(), work.weight.end(), 0.0);
-  result.possible = this->Samples.possible;
+  const double points = this->IsThin ? SamplesForOne : 1.0;
+  result.samples = points * std::accumulate(work.weight.begin(), work.weight.end(), 0.0);
+  result.possible = points * this->Samples.possible;
   return result;
 }
 
 namespace
 {
-constexpr LocalFit ByVolume{};
+constexpr LocalFit ByVolume{ SecondTerm::None, 3, 1e-4f, true };
 constexpr LocalFit ByGradients{ SecondTerm::GradientLength, 2 };
-constexpr LocalFit BySquare{ SecondTerm::Square, 2, 3e-5f };
+constexpr LocalFit BySquare{ SecondTerm::Square, 2, 3e-5f, true, 0.005f };
 
 template <const LocalFit& Fit>
 Metric metricOf()

@@ -37,11 +37,14 @@ struct Block
   std::vector<float> values;
 
   Block() = default;
-  Block(const glm::ivec3& sides, int each)
-    : dimensions(sides)
-    , numbers(each)
-    , values(static_cast<std::size_t>(sides.x) * sides.y * sides.z * each)
+  Block(const glm::ivec3& sides, int each) { this->reshape(sides, each); }
+
+  /** The values are undefined unless the block had none. */
+  void reshape(const glm::ivec3& sides, int each)
   {
+    this->dimensions = sides;
+    this->numbers = each;
+    this->values.resize(static_cast<std::size_t>(sides.x) * sides.y * sides.z * each);
   }
 
   float* row(int j, int k)
@@ -70,14 +73,15 @@ public:
   /** For each point of a row, the sum of the windows that hold it. */
   void spreadRow(const float* windows, int count, int numbers, float* points) const;
 
-  /** The same along y and z of a block whose rows are gathered. */
-  Block gathered(const Block& rows) const;
+  /** The same along y and z of a block whose rows are gathered. Memory of `windows` is used again. */
+  void gather(const Block& rows, Block& windows);
 
-  /** The same along z and y of a block of windows; its rows are still to be spread. */
-  Block spread(const Block& windows, const glm::ivec3& points) const;
+  /** The same along z and y of a block of windows; the rows of `points` are still to be spread. */
+  void spread(const Block& windows, const glm::ivec3& points, Block& rows);
 
 private:
   int Radius;
+  Block Between; // after the first of two axes
 };
 
 /** What explains the reference beside the volume. */
@@ -93,6 +97,9 @@ struct LocalFit
   SecondTerm second = SecondTerm::None;
   int windowRadius = 3; ///< points
   float ridge = 1e-4f;  ///< variance of the volume (range 0 to 1) below which it is flat; above 0
+  bool isThin = false;  ///< every second sample, those of a checkerboard
+  /** Fraction of a volume's mean variance below which a window carries little information. */
+  float leastVariance = 0.02f;
 };
 
 class LocalFitSimilarity : public Comparison
@@ -107,14 +114,15 @@ public:
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
 
-  void restrictTo(const HalfSpace& half) override { this->Samples.restrictTo(half); }
+  void restrictTo(const HalfSpace& half) override;
 
 private:
   struct Work;
   void leaveOutIdleSamples();
+  void thinOut();
   void takeSample(const LevelSamples::Compared& sample, float* sums, Work& work) const;
-  void takeSamples(const std::vector<glm::vec3>& displacements, Work& work) const;
-  void fitWindows(Work& work) const;
+  void takeSamples(const std::vector<glm::vec3>& displacements, Work& work);
+  void fitWindows(Work& work);
   /** Replaces the sums of a window by its results (Left); adds to the cost and the windows. */
   void fitWindow(float* numbers, bool counts, double& sum, double& windows) const;
   ControlForces takeForces(const std::vector<glm::vec3>& displacements, const Work& work) const;
@@ -129,6 +137,7 @@ private:
   Volume Reference;            // at the points, 0 to 1
   std::vector<char> Varies;    // of the windows; 1: the volume varies there
   float Ridge;                 // of LocalFit
+  bool IsThin;                 // of LocalFit
   float LeastVariance;         // of the reference, below which a window carries little information
   std::unique_ptr<Work> Known; // of the last comparison; its memory serves the next one
 };

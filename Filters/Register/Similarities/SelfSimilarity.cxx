@@ -302,14 +302,14 @@ public:
     else if (!this->Samples)
     {
       this->Samples = std::make_unique<LevelSamples>(this->Level, this->Over);
+      if constexpr (IsThin)
+      {
+        thinOut(*this->Samples);
+      }
       this->Rest = this->Samples->read(this->Rest, Channels);
       if constexpr (Images == 2)
       {
         this->Importance = this->Samples->read(importanceOf(this->Level), 1);
-      }
-      if constexpr (IsThin)
-      {
-        thinOut(*this->Samples);
       }
       this->Level = {};
       this->Over = {};
@@ -373,6 +373,7 @@ std::unique_ptr<Comparison> made(LevelVolumes level, const Lattice& lattice)
 }
 
 const Metric SelfSimilarityMetric = selfSimilarityMetric();
+const Metric ThinSelfSimilarity = thinSelfSimilarity();
 
 // Where contrasts differ or slices are thick, self-similarity is least 0.4 to 0.6 mm beside the
 // right position. The local fit has no such bias, but finds positions from nearby only.
@@ -380,8 +381,10 @@ const Metric QuadraticFit = quadraticFitMetric();
 
 constexpr double Converged = 1e-3; // a smaller gain comes from the noise
 
-// The last level begins nearly right, and may follow bends that are narrow.
-constexpr double LastStiffness = 0.7;
+// Coarse levels find what is wide. The last one begins nearly right, and may follow bends that are
+// narrow: it is a factor on the other.
+constexpr double CoarseStiffness = 1.5;
+constexpr double LastStiffness = 0.5;
 }
 
 namespace
@@ -394,6 +397,11 @@ constexpr Support GradientSupport{ PlainSupport.along + 1, PlainSupport.across +
 Metric selfSimilarityMetric()
 {
   return { PlainSupport, SelfSimilarity<1, false>::BytesPerPoint, &made<1, false> };
+}
+
+Metric thinSelfSimilarity()
+{
+  return { PlainSupport, SelfSimilarity<1, true>::BytesPerPoint, &made<1, true> };
 }
 
 Metric selfSimilarityWithGradients()
@@ -414,8 +422,9 @@ Similarity describeSelfSimilarity()
   result.tooltip =
     "For volumes of any contrast. Compares self-similarity (SSC), and at the end how well a "
     "parabola of the volume's values explains the reference in small windows.";
-  result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &SelfSimilarityMetric, 2.0 },
+  result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &ThinSelfSimilarity, 2.0 },
     { &QuadraticFit, 1.5, 1.0, false, true, 1, LastStiffness } };
+  result.plan.stiffness = CoarseStiffness;
   result.plan.converged = Converged;
   result.plan.check.halves = { &SelfSimilarityMetric, 4.0, 1.0, true };
   result.plan.check.other = { &QuadraticFit, 4.0, 1.0, true };

@@ -27,6 +27,9 @@ BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> selfSimilarity(const Volume& vo
 /** The mean squared difference of the 12 numbers of both volumes. */
 Metric selfSimilarityMetric();
 
+/** The same by a quarter of the samples. */
+Metric thinSelfSimilarity();
+
 /**
  * The squared difference of the numbers of both volumes and of those of their gradients' lengths,
  * half each. Samples count by the steepness of the volume.

@@ -65,6 +65,26 @@ TEST(RegisterVolume, SmoothingTakesAwayWhatACoarseGridCannotHold)
   EXPECT_EQ(smoothed(stripes, 0.5).values, stripes.values) << "a finer grid needs no smoothing";
 }
 
+TEST(RegisterVolume, SamplingSmoothsAndReads)
+{
+  const Volume volume = filled(smallGrid(), tissue);
+  Grid other = coarseGrid(volume.grid, 3.0);
+  other.origin = volume.grid.worldFromGrid({ -1.3, 0.7, 2.2 }); // some points lie outside
+  Grid rotated = other;
+  rotated.direction = glm::dmat3(other.direction[1], -other.direction[0], other.direction[2]);
+  for (const Grid& to : { coarseGrid(volume.grid, 4.0), other, rotated })
+  {
+    const Volume expected = resampled(smoothed(volume, 4.0), to);
+    const Volume found = sampled(volume, 4.0, to);
+    ASSERT_EQ(found.values.size(), expected.values.size());
+    EXPECT_EQ(found.grid, to);
+    for (std::size_t i = 0; i < found.values.size(); ++i)
+    {
+      ASSERT_NEAR(found.values[i], expected.values[i], 1e-2);
+    }
+  }
+}
+
 TEST(RegisterVolume, SlopesAreDerivatives)
 {
   const Volume volume = filled(smallGrid(), tissue);

@@ -107,13 +107,20 @@ def by_elastix(case, reference, origin, spacing, name):
 
 
 def by_refine(case, reference, origin, spacing, similarity, strokes=()):
-    """The landmarks as refine bends them from there, and its processor time (s)."""
+    """The landmarks as refine bends them from there; its processor time (s) and that of its checks.
+
+    The checks begin after the last step.
+    """
     source = brainshift_testing.volume(reference, origin=tuple(origin), spacing=tuple(spacing))
     bent = simple.FreeFormDeformation(Input=case.brain, Strokes=strokes)
-    before = processor_seconds(resource.RUSAGE_SELF)
-    brainshift.refine(bent, source, similarity=similarity, cavity=case.cavity)
-    took = processor_seconds(resource.RUSAGE_SELF) - before
-    return brainshift.deformed_from_rest(bent, case.landmarks), took
+    clock = [processor_seconds(resource.RUSAGE_SELF)]
+
+    def note(_):
+        clock.append(processor_seconds(resource.RUSAGE_SELF))
+    brainshift.refine(bent, source, similarity=similarity, cavity=case.cavity, callback=note)
+    note(None)
+    seconds = clock[-1] - clock[0], clock[-1] - clock[-2]
+    return brainshift.deformed_from_rest(bent, case.landmarks), seconds
 
 
 def test_landmarks_lie_nearer_than_those_of_elastix():
@@ -128,7 +135,8 @@ def test_landmarks_lie_nearer_than_those_of_elastix():
         ours, our_seconds = by_refine(case, reference, *place, similarity)
         theirs, their_seconds = by_elastix(case, reference, *place, mode)
         ours, theirs = distances(ours, truth), distances(theirs, truth)
-        print(f"{mode}: refine {ours[0]:.3f} / {ours[1]:.3f} mm in {our_seconds:.1f} s, elastix "
+        print(f"{mode}: refine {ours[0]:.3f} / {ours[1]:.3f} mm in {our_seconds[0]:.1f} s "
+              f"({our_seconds[1]:.1f} s checks), elastix "
               f"{theirs[0]:.3f} / {theirs[1]:.3f} mm in {their_seconds:.1f} s of processor time",
               flush=True)
         assert theirs[0] < 1.0, "elastix was given what it needs"
@@ -153,12 +161,13 @@ def test_contrasts_of_a_scanner():
         theirs, their_seconds = by_elastix(case, *scan, contrast)
         ours, theirs = distances(ours, truth), distances(theirs, truth)
         print(f"{contrast}, {scan[2][2]:.1f} mm slices: {before[0]:.2f} / {before[1]:.2f} mm "
-              f"before, refine {ours[0]:.3f} / {ours[1]:.3f} mm in {our_seconds:.1f} s, elastix "
+              f"before, refine {ours[0]:.3f} / {ours[1]:.3f} mm in {our_seconds[0]:.1f} s "
+              f"({our_seconds[1]:.1f} s checks), elastix "
               f"{theirs[0]:.3f} / {theirs[1]:.3f} mm in {their_seconds:.1f} s of processor time",
               flush=True)
         assert theirs[0] < 1.0, "elastix was given what it needs"
         # In thin slices of FLAIR elastix is nearer.
-        assert ours[0] < 0.5 and ours[1] < 1.5, (contrast, ours)
+        assert ours[0] < 0.45 and ours[1] < 1.2, (contrast, ours)
         means.append((ours[0], theirs[0]))
     ours, theirs = numpy.mean(means, axis=0)
     assert ours < theirs, (ours, theirs)
