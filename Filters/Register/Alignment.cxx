@@ -382,6 +382,13 @@ void Alignment::prepareLevel()
   this->IsPrepared = true;
 }
 
+// A search that comes from far still gains after as many rounds as the coarsest level has.
+int Alignment::mostRoundsHere() const
+{
+  constexpr int RoundsOfFinerLevels = 3; // for each one of the coarsest level
+  return this->Settings.mostRounds * (this->Progress.level > 0 ? RoundsOfFinerLevels : 1);
+}
+
 double Alignment::searchLine(const Parameters& direction)
 {
   const double spacingMm = this->Settings.levelsMm[this->Progress.level];
@@ -408,7 +415,7 @@ void Alignment::endRound()
 {
   const double gain = this->RoundStartLoss - this->Loss;
   const bool isDone =
-    gain <= Converged * std::abs(this->Loss) || ++this->Rounds >= this->Settings.mostRounds;
+    gain <= Converged * std::abs(this->Loss) || ++this->Rounds >= this->mostRoundsHere();
   Parameters displacement{};
   double length = 0.0;
   for (std::size_t i = 0; i < displacement.size(); ++i)
@@ -508,7 +515,7 @@ void Alignment::reportDone()
 {
   const double levels = static_cast<double>(this->Settings.levelsMm.size());
   double ofLevel =
-    this->IsPrepared ? static_cast<double>(this->Rounds) / this->Settings.mostRounds : 0.0;
+    this->IsPrepared ? static_cast<double>(this->Rounds) / this->mostRoundsHere() : 0.0;
   if (this->Progress.level == 0)
   {
     ofLevel = (this->Start + ofLevel) / std::max(1, this->Settings.starts);

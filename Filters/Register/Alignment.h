@@ -72,7 +72,7 @@ struct AlignmentSettings
 {
   std::vector<double> levelsMm{ 8.0, 4.0, 2.0 }; ///< spacing of the samples, coarse to fine
   std::size_t mostSamples = 80000;               ///< on each level
-  int mostRounds = 8;                            ///< through all directions, on each level
+  int mostRounds = 8; ///< through all directions, on the coarsest level; three times on others
   int starts = 1; ///< positions from which the coarsest level searches; 1 to MostStarts (Starts.h)
 };
 
@@ -138,6 +138,7 @@ private:
   };
 
   void prepareLevel();
+  int mostRoundsHere() const;
   RigidPose motionOf(const Parameters& at) const;
   double loss(const Parameters& at, double* overlap = nullptr) const;
   double searchLine(const Parameters& direction);

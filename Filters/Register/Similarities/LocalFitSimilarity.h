@@ -73,7 +73,7 @@ public:
   /** For each point of a row, the sum of the windows that hold it. */
   void spreadRow(const float* windows, int count, int numbers, float* points) const;
 
-  /** The same along y and z of a block whose rows are gathered. Memory of `windows` is used again. */
+  /** The same along y and z of a block whose rows are gathered. Uses the memory of `windows`. */
   void gather(const Block& rows, Block& windows);
 
   /** The same along z and y of a block of windows; the rows of `points` are still to be spread. */

@@ -428,6 +428,7 @@ Similarity describeSelfSimilarity()
   result.plan.converged = Converged;
   result.plan.check.halves = { &SelfSimilarityMetric, 4.0, 1.0, true };
   result.plan.check.other = { &QuadraticFit, 4.0, 1.0, true };
+  result.plan.check.halvesMm = 3.5; // 3.05 mm in a right pair of T1 and T2 in slices of 2.7 mm
   return result;
 }
 }
