@@ -25,6 +25,7 @@ from .maps import deformed_from_rest, rest_from_deformed
 from .points import map_points, read_points
 from .registering import (
     Alignment, Refinement, RegistrationFailed, align, refine, similarities)
+from .reporting import report
 from .resecting import Resection, resect
 from .sample import open_sample
 from .steps import Step
@@ -39,6 +40,6 @@ __all__ = [
     "align", "animate", "apply_transform", "counters", "deformed_from_rest",
     "dicom_patient", "figure", "fit", "four_views", "gpu", "load_field", "load_lattice", "look",
     "looks", "map_points", "move", "open_sample", "percentile_window", "pick", "read_points",
-    "read_transform", "refine", "resect", "rest_from_deformed", "save_dicom",
+    "read_transform", "refine", "report", "resect", "rest_from_deformed", "save_dicom",
     "save_field", "save_lattice", "save_transform", "save_volume", "show_comparison",
     "similarities", "slice_axes", "soft", "stamp", "tre"]
