@@ -14,6 +14,7 @@ Research software, not a medical device.
 """
 
 from .answers import counters, gpu, pick, slice_axes
+from .batching import Done, batch
 from .cases import Case
 from .figures import animate, figure
 from .files import (
@@ -35,9 +36,9 @@ from .views import four_views, show_comparison
 from .windows import percentile_window
 
 __all__ = [
-    "Alignment", "Case", "Fit", "MOVE", "NUMBERS_PER_STROKE", "Refinement",
+    "Alignment", "Case", "Done", "Fit", "MOVE", "NUMBERS_PER_STROKE", "Refinement",
     "RegistrationFailed", "Resection", "SOFT", "STAMP", "Step", "TargetErrors", "Transform",
-    "align", "animate", "apply_transform", "counters", "deformed_from_rest",
+    "align", "animate", "apply_transform", "batch", "counters", "deformed_from_rest",
     "dicom_patient", "figure", "fit", "four_views", "gpu", "load_field", "load_lattice", "look",
     "looks", "map_points", "move", "open_sample", "percentile_window", "pick", "read_points",
     "read_transform", "refine", "report", "resect", "rest_from_deformed", "save_dicom",
