@@ -598,6 +598,33 @@ std::vector<double> vtkFitDeformation::Deviations(const std::vector<double>& res
   return this->Internal->Fitted.deviations(positions);
 }
 
+std::vector<double> vtkFitDeformation::Rows() const
+{
+  std::vector<double> numbers;
+  if (this->Internal->Fitted.isKnown())
+  {
+    for (const Row& row : this->Internal->Fitted.fit().field().rows())
+    {
+      numbers.insert(numbers.end(),
+        { row.point.x, row.point.y, row.point.z, row.axis.x, row.axis.y, row.axis.z,
+          row.variance });
+    }
+  }
+  return numbers;
+}
+
+std::vector<double> vtkFitDeformation::Covariance() const
+{
+  if (!this->Internal->Fitted.isKnown())
+  {
+    return {};
+  }
+  const FitSettings settings;
+  const Matern& kernel =
+    bendsOnly(this->Internal->Measured) ? settings.surfaceKernel : settings.landmarkKernel;
+  return { kernel.lengthMm, kernel.deviationMm };
+}
+
 void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

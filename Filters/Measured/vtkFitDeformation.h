@@ -252,6 +252,18 @@ public:
   std::vector<double> Deviations(const std::vector<double>& rest);
   ///@}
 
+  ///@{
+  /**
+   * The equations of the last fit, from which fields of its process can be drawn. Rows: 7 numbers
+   * each, the position (mm, rest frame), the unit axis along which the displacement is measured
+   * there, and the variance (mm^2). Covariance: the length (mm) and the standard deviation (mm) of
+   * the Matern covariance (Process.h). Both are empty without a fit. Landmarks alone are
+   * near-rigid; their free rigid motion is not in the rows.
+   */
+  std::vector<double> Rows() const;
+  std::vector<double> Covariance() const;
+  ///@}
+
 protected:
   vtkFitDeformation();
   ~vtkFitDeformation() override;

@@ -49,6 +49,26 @@ vtkDoubleArray* vtkFitReport::GetDeviations()
   return this->Deviations;
 }
 
+vtkDoubleArray* vtkFitReport::GetRows()
+{
+  this->Rows->Reset();
+  if (this->Filter)
+  {
+    guarded(this, [&] { filled(this->Rows, this->Filter->Rows()); });
+  }
+  return this->Rows;
+}
+
+vtkDoubleArray* vtkFitReport::GetCovariance()
+{
+  this->Covariance->Reset();
+  if (this->Filter)
+  {
+    guarded(this, [&] { filled(this->Covariance, this->Filter->Covariance()); });
+  }
+  return this->Covariance;
+}
+
 void vtkFitReport::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

@@ -41,6 +41,12 @@ public:
   vtkDoubleArray* GetDeviations();
   ///@}
 
+  ///@{
+  /** The equations of the fit: vtkFitDeformation::Rows and Covariance. They take no points. */
+  vtkDoubleArray* GetRows();
+  vtkDoubleArray* GetCovariance();
+  ///@}
+
 protected:
   vtkFitReport();
   ~vtkFitReport() override;
@@ -53,6 +59,8 @@ private:
   std::vector<double> Points;
   vtkNew<vtkDoubleArray> Measured;
   vtkNew<vtkDoubleArray> Deviations;
+  vtkNew<vtkDoubleArray> Rows;
+  vtkNew<vtkDoubleArray> Covariance;
 };
 
 #endif

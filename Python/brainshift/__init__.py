@@ -14,6 +14,8 @@ Research software, not a medical device.
 """
 
 from .answers import counters, gpu, pick, slice_axes
+from .batching import Done, batch
+from .cases import Case
 from .figures import animate, figure
 from .files import (
     dicom_patient, load_field, load_lattice, save_dicom, save_field, save_lattice, save_volume)
@@ -24,19 +26,21 @@ from .maps import deformed_from_rest, rest_from_deformed
 from .points import map_points, read_points
 from .registering import (
     Alignment, Refinement, RegistrationFailed, align, refine, similarities)
+from .reporting import report
+from .resecting import Resection, resect
 from .sample import open_sample
+from .steps import Step
 from .strokes import MOVE, NUMBERS_PER_STROKE, SOFT, STAMP, move, soft, stamp
 from .transforms import Transform, apply_transform, read_transform, save_transform
 from .views import four_views, show_comparison
 from .windows import percentile_window
 
 __all__ = [
-    "Alignment", "Fit", "MOVE", "NUMBERS_PER_STROKE", "Refinement", "RegistrationFailed",
-    "SOFT", "STAMP",
-    "TargetErrors", "Transform", "align", "animate", "apply_transform", "counters",
-    "deformed_from_rest", "dicom_patient", "figure", "fit", "four_views", "gpu",
-    "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
-    "percentile_window", "pick", "read_points", "read_transform", "refine",
-    "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_transform",
-    "save_volume", "show_comparison", "similarities", "slice_axes", "soft", "stamp",
-    "tre"]
+    "Alignment", "Case", "Done", "Fit", "MOVE", "NUMBERS_PER_STROKE", "Refinement",
+    "RegistrationFailed", "Resection", "SOFT", "STAMP", "Step", "TargetErrors", "Transform",
+    "align", "animate", "apply_transform", "batch", "counters", "deformed_from_rest",
+    "dicom_patient", "figure", "fit", "four_views", "gpu", "load_field", "load_lattice", "look",
+    "looks", "map_points", "move", "open_sample", "percentile_window", "pick", "read_points",
+    "read_transform", "refine", "report", "resect", "rest_from_deformed", "save_dicom",
+    "save_field", "save_lattice", "save_transform", "save_volume", "show_comparison",
+    "similarities", "slice_axes", "soft", "stamp", "tre"]

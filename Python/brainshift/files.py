@@ -13,6 +13,13 @@ def _write(writer, name):
         raise OSError(f"{name} was not written: {problem}")
 
 
+def figures_of(source):
+    """A filter after its update and that of the figures that it reports."""
+    source.UpdatePipeline()
+    source.SMProxy.UpdatePropertyInformation()
+    return source
+
+
 def reason_of(reader):
     """Why a reader of BrainShift read nothing in its last run: a sentence, or empty."""
     reader.SMProxy.UpdatePropertyInformation()

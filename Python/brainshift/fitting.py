@@ -7,6 +7,9 @@ from .reports import numbers
 #: The annotation of sources that BrainShift made; the window uses the same one.
 _MADE = "BrainShiftFit"
 
+#: Most positions of one draw: their covariance takes 72 MB.
+_MOST_DRAWN = 1000
+
 #: The inputs that are made from arrays, and their names in the pipeline.
 _INPUTS = {"RestLandmarks": "Landmarks At Rest", "MeasuredLandmarks": "Measured Landmarks",
            "Traces": "Traced Points"}
@@ -115,16 +118,26 @@ class Fit:
         words.append(f"calibration {self.calibration:.2f}")
         return "Fit: " + ", ".join(words) + (f". {self.warning}" if self.warning else "")
 
+    def _report(self):
+        """A report on the fit, in the process that has it."""
+        report = self.filter.SMProxy.GetSessionProxyManager().NewProxy("misc", "FitReport")
+        report.UnRegister(None)  # Python holds it
+        report.PrototypeOn()  # so that it is no step to undo
+        report.GetProperty("Filter").AddProxy(self.filter.SMProxy)
+        return report
+
+    def _refused(self):
+        problem = reason_of(self.filter)
+        return RuntimeError("The fit has no result" + (f": {problem}" if problem else
+                            "; it was changed since. Call fit again"))
+
     def _reported(self, points, name):
         import numpy
 
         points = _points("points", points)
         if len(points) == 0:
             return numpy.empty(0)
-        report = self.filter.SMProxy.GetSessionProxyManager().NewProxy("misc", "FitReport")
-        report.UnRegister(None)  # Python holds it
-        report.PrototypeOn()  # so that it is no step to undo
-        report.GetProperty("Filter").AddProxy(self.filter.SMProxy)
+        report = self._report()
         positions = report.GetProperty("Points")
         positions.SetNumberOfElements(points.size)
         for i, number in enumerate(points.ravel()):
@@ -133,9 +146,7 @@ class Fit:
         report.UpdatePropertyInformation(report.GetProperty(name))
         result = numpy.array(numbers(report, name), float)
         if len(result) != len(points) * (3 if name == "Measured" else 1):
-            problem = reason_of(self.filter)
-            raise RuntimeError("The fit has no result" + (f": {problem}" if problem else
-                               "; it was changed since. Call fit again"))
+            raise self._refused()
         return result
 
     def measured_from_rest(self, points):
@@ -159,6 +170,43 @@ class Fit:
         (0.7 mm × `calibration`)².
         """
         return self._reported(points, "Deviations")
+
+    def draws(self, points, count=50, seed=0):
+        """Draw deformations that the measurements allow, from the process of the fit.
+
+        Neighbours move together, as the fit expects. The draws of one point have
+        `measured_from_rest` as their mean and `deviation` as their standard deviation along each
+        axis, on average over the axes.
+
+        - `points`: an N x 3 array of positions in the rest frame, at most 1000.
+        - `count`: number of draws, at least 1. Default 50.
+        - `seed`: a number. The same seed draws the same. Default 0.
+
+        Returns a count x N x 3 array of positions in the measured frame.
+
+        Raises `ValueError` if there are too many points, or nothing was measured.
+        """
+        import numpy
+
+        from .process import drawn, posterior
+
+        points = _points("points", points)
+        if not 0 < len(points) <= _MOST_DRAWN:
+            raise ValueError(f"points has {len(points)} positions; draws takes 1 to {_MOST_DRAWN}")
+        report = self._report()
+        report.UpdateVTKObjects()
+        report.UpdatePropertyInformation()
+        rows = numpy.array(numbers(report, "Rows"), float).reshape(-1, 7)
+        covariance = numbers(report, "Covariance")
+        if not covariance:
+            raise self._refused()
+        if len(rows) == 0:
+            raise ValueError("nothing was measured; any deformation is possible")
+        left = posterior(rows, covariance, points)
+        own = numpy.sqrt(numpy.maximum(numpy.diag(left).reshape(-1, 3).mean(axis=1), 1e-12))
+        factor = self.deviation(points) / own  # calibration, guard, mask and control points
+        random = numpy.random.default_rng(seed)
+        return self.measured_from_rest(points) + factor[:, None] * drawn(left, count, random)
 
 
 def _lattice_settings(source):
@@ -216,15 +264,20 @@ def own(source):
     return source
 
 
-def _is_free(source, former):
-    """Whether BrainShift made a source, and no other source than the former fit uses it."""
+def is_unused(source, former=None):
+    """Whether no source of the pipeline, other than a former fit, uses a source."""
     proxy = source.SMProxy
     consumers = [proxy.GetConsumerProxy(i) for i in range(proxy.GetNumberOfConsumers())]
     users = [consumer.GetTrueParentProxy() for consumer in consumers if consumer]  # else deleted
-    return proxy.HasAnnotation(_MADE) and not any(
-        user is not former.SMProxy and user.IsA("vtkSMSourceProxy")
+    return not any(
+        (former is None or user is not former.SMProxy) and user.IsA("vtkSMSourceProxy")
         and not user.IsA("vtkSMRepresentationProxy")
         for user in users)
+
+
+def _is_free(source, former):
+    """Whether BrainShift made a source, and no other source than the former fit uses it."""
+    return source.SMProxy.HasAnnotation(_MADE) and is_unused(source, former)
 
 
 def forget_former(former):

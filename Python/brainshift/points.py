@@ -30,6 +30,25 @@ def _labels(array, count):
     return [array.GetValue(i) for i in range(count)] if array else [""] * count
 
 
+def read_from(source):
+    """The points of a source, as `read_points` returns them."""
+    import numpy
+    from paraview import servermanager
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    points = servermanager.Fetch(source)
+    count = points.GetNumberOfPoints()
+    arrays = points.GetPointData()
+
+    def numbers(array):
+        stored = arrays.GetArray(array)
+        return vtk_to_numpy(stored).copy() if stored else numpy.full(count, numpy.nan)
+    positions = (vtk_to_numpy(points.GetPoints().GetData()).copy() if count
+                 else numpy.empty((0, 3)))
+    return Points(positions, _labels(arrays.GetAbstractArray("Label"), count),
+                  numbers("Number"), numbers("Time"), numbers("Deviation"))
+
+
 def read_points(name, volume=1, table_axes="RAS", columns=None):
     """Read landmarks or traced points from a file.
 
@@ -48,24 +67,12 @@ def read_points(name, volume=1, table_axes="RAS", columns=None):
 
     Raises `ValueError` with the reason if the file cannot be read.
     """
-    import numpy
-    from paraview import servermanager, simple
-    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from paraview import simple
 
     active = simple.GetActiveSource()
     reader = _reader(os.fspath(name), volume, table_axes, columns)
     try:
-        points = servermanager.Fetch(reader)
-        count = points.GetNumberOfPoints()
-        arrays = points.GetPointData()
-
-        def numbers(array):
-            stored = arrays.GetArray(array)
-            return vtk_to_numpy(stored).copy() if stored else numpy.full(count, numpy.nan)
-        positions = (vtk_to_numpy(points.GetPoints().GetData()).copy() if count
-                     else numpy.empty((0, 3)))
-        return Points(positions, _labels(arrays.GetAbstractArray("Label"), count),
-                      numbers("Number"), numbers("Time"), numbers("Deviation"))
+        return read_from(reader)
     finally:
         simple.Delete(reader)
         simple.SetActiveSource(active)

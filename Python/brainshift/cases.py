@@ -1,0 +1,576 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A case: files or sources by their roles, and the pipeline that they make."""
+
+import json
+import os
+import uuid
+
+from .arguments import positive, vector
+from .files import reason_of
+from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
+from .roles import ROLES, column_sets, ending, open_file, proposed
+from .steps import Steps
+
+#: Annotations of proxies, which state files keep: `MARK` + role has the name of the case, `SETTING`
+#: + name, at the Free-Form Deformation, a setting as JSON, and `OPENED` is at sources that a case
+#: opened itself.
+MARK, SETTING, OPENED = "BrainShift.Case.", "BrainShift.CaseSetting.", "BrainShift.CaseOpened"
+
+#: Parts of the pipeline that a case makes, beside the sources of its roles.
+_MADE = ("trace_distance", "contact_distance", "comparison", "joined", "bent")
+
+
+def _proxies():
+    """All sources of the pipeline."""
+    from paraview import simple
+
+    return list(simple.GetSources().values())
+
+
+def _stem(source):
+    """The name of a source's file without its ending, or the name of the source."""
+    from paraview import servermanager
+
+    for name in ("FileName", "FileNames"):
+        value = getattr(source, name, None)
+        if value:
+            path = value if isinstance(value, str) else value[0]
+            base = os.path.basename(os.path.normpath(path))
+            return base[:len(base) - len(ending(path))] if ending(path) else base
+    return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or "volume"
+
+
+def _opened(path, **properties):
+    """A source of a file that the case deletes when it has no role any more."""
+    source = open_file(path, **properties)
+    source.SMProxy.SetAnnotation(OPENED, "1")
+    return source
+
+
+def _marks(source):
+    """The roles of a source in cases, and the names of the cases: a list of pairs."""
+    proxy = source.SMProxy
+    keys = [proxy.GetAnnotationKeyAt(i) for i in range(proxy.GetNumberOfAnnotations())]
+    return [(key[len(MARK):], proxy.GetAnnotation(key)) for key in keys if key.startswith(MARK)]
+
+
+def _kept(function):
+    """Runs a method and makes the former source active again."""
+    import functools
+
+    @functools.wraps(function)
+    def run(*arguments, **named):
+        from paraview import simple
+
+        active = simple.GetActiveSource()
+        try:
+            return function(*arguments, **named)
+        finally:
+            simple.SetActiveSource(active)
+    return run
+
+
+class _Role:
+    """A role as an attribute of a case."""
+
+    def __init__(self, name):
+        self.name = name
+
+    def __get__(self, case, kind=None):
+        return self if case is None else case._role(self.name)
+
+    def __set__(self, case, value):
+        case._set_role(self.name, value)
+
+
+class _Setting:
+    """A setting of a case, kept at its Free-Form Deformation."""
+
+    def __init__(self, default, check):
+        self.default, self.check = default, check
+
+    def __set_name__(self, owner, name):
+        self.name = name
+
+    def __get__(self, case, kind=None):
+        return self if case is None else case._setting(self.name, self.default)
+
+    def __set__(self, case, value):
+        case._keep(self.name, self.check(self.name, value))
+        case._wire()
+
+
+def _labels(name, values):
+    labels = [int(value) for value in values]
+    if labels != list(values):
+        raise ValueError(f"{name} is {values}; labels are whole numbers")
+    return labels
+
+
+def _level(name, value):
+    import math
+
+    if value is not None and not math.isfinite(float(value)):
+        raise ValueError(f"{name} is {value}; it must be a finite number or None")
+    return None if value is None else float(value)
+
+
+class Case(Steps):
+    """A patient: what is known, by roles, and the pipeline that it makes.
+
+        case = brainshift.Case(volume="T1.nii.gz", brain="mask.nii.gz", traces="trace.csv")
+        case.run("Fit")
+        print(case)
+
+    Each role is a path, a ParaView source or `None`. It can be given in any order and changed at
+    any time: `case.traces = "second.csv"`. The pipeline then follows; it is ParaView's own, so it
+    can be edited, and state files keep it and the roles (`Case.of`).
+
+    - `volume`: the volume before surgery
+    - `brain`: a mask or labels of the brain. It is the segmentation, the cortex of fits and
+      distances, and the mask of the deformation: nothing outside moves (`holds_outside`).
+    - `tumour`: labels of the tumour in the frame of the volume
+    - `traces`: points that were traced on the cortex
+    - `opening`: a mask of the opening of the skull, or its centre and radius in mm
+    - `landmarks`: a file with the positions at rest and measured (an MNI tag file of two volumes,
+      or a table with two sets of columns), or a pair of files or sources: at rest, measured
+    - `electrodes`: contacts on the cortex. They are fitted as traced points are.
+    - `reference`: a volume during or after surgery
+    - `cavity`: a mask of the removed tissue, drawn in the reference
+
+    Settings, all readable and changeable:
+
+    - `surface_level`: the scalar of the volume at the cortex, if there is no brain. Default `None`.
+    - `holds_outside`: whether tissue outside of the brain is held. Default True.
+    - `mask_growth`: distance in mm by which the brain grows before displacements fade. Default -1:
+      the width of the feather, so all of the brain may move.
+    - `brain_labels`, `tumour_labels`, `cavity_labels`: the labels that count. Default: all above 0.
+    - `landmarks_judge`: True keeps the landmarks out of the fit, so that they judge it. Default
+      False.
+
+    Attributes to read: `bent`, the Free-Form Deformation; `comparison`, a Compare Volumes;
+    `trace_distance` and `contact_distance`, Trace Distances; each is `None` while its roles are
+    missing. `resection` is the result of the last `resect`, and `proposal` that of `from_folder`.
+
+    Raises `TypeError` for an unknown role, and `ValueError` or `FileNotFoundError` with the reason
+    if a file cannot be read. The role then stays as it was.
+    """
+
+    volume, brain, tumour, traces, opening, landmarks, electrodes, reference, cavity = (
+        _Role(role) for role in ROLES)
+    surface_level = _Setting(None, _level)
+    holds_outside = _Setting(True, lambda name, value: bool(value))
+    mask_growth = _Setting(-1.0, lambda name, value: float(value))
+    brain_labels = _Setting([], _labels)
+    tumour_labels = _Setting([], _labels)
+    cavity_labels = _Setting([], _labels)
+    landmarks_judge = _Setting(False, lambda name, value: bool(value))
+
+    def __init__(self, **roles):
+        unknown = sorted(set(roles) - set(ROLES))
+        if unknown:
+            raise TypeError(f"Case has no role {unknown[0]!r}; it has {', '.join(ROLES)}")
+        self._begin(uuid.uuid4().hex[:12])
+        for role in ROLES:
+            if roles.get(role) is not None:
+                setattr(self, role, roles[role])
+
+    def _begin(self, name):
+        self._name = name
+        self._settings = {}  # until there is a deformation to keep them
+        self._loose = []  # sources of former roles
+        self.proposal = []
+        self.resection = None
+        self.judged = None
+        self.exported = []
+
+    @classmethod
+    def of(cls, source):
+        """Find the case that a source belongs to, for example after a state was loaded.
+
+        - `source`: the source of any role, or the Free-Form Deformation.
+
+        Returns a `Case`. Raises `ValueError` if the source belongs to no case.
+        """
+        marks = _marks(source)
+        if not marks:
+            raise ValueError("the source belongs to no case")
+        case = cls.__new__(cls)
+        case._begin(marks[0][1])
+        return case
+
+    @classmethod
+    def all(cls):
+        """All cases of the session, a list."""
+        names = {name: source for source in _proxies() for _, name in _marks(source)}
+        return [cls.of(source) for source in names.values()]
+
+    @classmethod
+    def from_folder(cls, folder):
+        """Sort the files of a folder into roles, by kind, name and content, and propose them.
+
+        Nothing is opened for the case. Look at `proposal`, a list of `role`, `file` and `reason`,
+        and then call `accept`.
+
+        - `folder`: path of a folder. Its subfolders count if they are DICOM series.
+
+        Returns a `Case` without roles.
+
+        Raises `FileNotFoundError` if there is no such folder.
+        """
+        case = cls()
+        case.proposal = proposed(os.fspath(folder))
+        return case
+
+    def accept(self, **changes):
+        """Take the proposal of `from_folder` over, with changes.
+
+        - `changes`: roles and what they are instead of the proposal; `None` leaves a role out.
+
+        Returns the case.
+        """
+        unknown = sorted(set(changes) - set(ROLES))
+        if unknown:
+            raise TypeError(f"Case has no role {unknown[0]!r}; it has {', '.join(ROLES)}")
+        roles = {each.role: each.file for each in self.proposal if each.role}
+        roles.update(changes)
+        for role in ROLES:
+            if roles.get(role) is not None:
+                setattr(self, role, roles[role])
+        return self
+
+    # Parts ------------------------------------------------------------------------------------
+
+    def part(self, role):
+        """The source with a role, or a made part of the pipeline; None if there is none."""
+        key = MARK + role
+        return next((source for source in _proxies() if source.SMProxy.HasAnnotation(key)
+                     and source.SMProxy.GetAnnotation(key) == self._name), None)
+
+    bent = property(lambda self: self.part("bent"))
+    comparison = property(lambda self: self.part("comparison"))
+    trace_distance = property(lambda self: self.part("trace_distance"))
+    contact_distance = property(lambda self: self.part("contact_distance"))
+
+    def _setting(self, name, default=None):
+        bent, key = self.bent, SETTING + name
+        if bent is not None and bent.SMProxy.HasAnnotation(key):
+            return json.loads(bent.SMProxy.GetAnnotation(key))
+        return self._settings.get(name, default)
+
+    def _keep(self, name, value):
+        self._settings[name] = value
+        if self.bent is not None:
+            self.bent.SMProxy.SetAnnotation(SETTING + name, json.dumps(value))
+
+    def _role(self, role):
+        if role == "landmarks":
+            pair = self.part("landmarks"), self.part("measured")
+            return pair if any(pair) else None
+        if role == "opening" and self.part("opening") is None:
+            return self.opening_ball()
+        return self.part(role)
+
+    def opening_ball(self):
+        ball = self._setting("opening_ball")
+        return (tuple(ball[0]), ball[1]) if ball else None
+
+    @_kept
+    def _set_role(self, role, value):
+        if role == "opening" and isinstance(value, (tuple, list)):
+            centre, radius = value
+            ball = list(vector("opening", centre)), positive("opening", radius)
+            self._forget("opening")
+            self._keep("opening_ball", ball)
+        elif role == "landmarks":
+            rest, measured = self._landmark_pair(value)
+            self._take("landmarks", rest, "landmarks at rest")
+            self._take("measured", measured, "measured landmarks")
+        else:
+            names = {"traces": "traced points", "electrodes": "contacts"}
+            source = _opened(value) if isinstance(value, (str, os.PathLike)) else value
+            self._take(role, source, names.get(role))
+            if role == "opening":
+                self._keep("opening_ball", None)
+        self._wire()
+
+    @staticmethod
+    def _landmark_pair(value):
+        """Sources of the landmarks at rest and measured."""
+        if value is None:
+            return None, None
+        if isinstance(value, (str, os.PathLike)):
+            path = os.fspath(value)
+            if ending(path) == ".tag":
+                return _opened(path), _opened(path, Volume=2)
+            sets = column_sets(path) if ending(path) in (".csv", ".tsv") else []
+            if len(sets) != 2:
+                return _opened(path), None
+            return tuple(_opened(path, PositionColumns=columns) for columns in sets)
+        rest, measured = value
+        return tuple(_opened(one) if isinstance(one, (str, os.PathLike)) else one
+                     for one in (rest, measured))
+
+    def _forget(self, role, keep=None):
+        """Takes a role from its source, unless that is the one to keep."""
+        former = self.part(role)
+        if former is not None and (keep is None or former.SMProxy is not keep.SMProxy):
+            former.SMProxy.RemoveAnnotation(MARK + role)
+            if former.SMProxy.HasAnnotation(OPENED) and not _marks(former):
+                self._loose.append(former)
+
+    def _take(self, role, source, name=None):
+        """Gives a role to a source, and a name to one that the case opened."""
+        from paraview import simple
+
+        self._forget(role, keep=source)
+        if source is not None:
+            source.SMProxy.SetAnnotation(MARK + role, self._name)
+            if source.SMProxy.HasAnnotation(OPENED):
+                simple.RenameSource(name or _stem(source), source)
+
+    def _delete_loose(self):
+        """Deletes sources of former roles that nothing uses."""
+        from paraview import simple
+
+        for source in self._loose:
+            if is_unused(source):
+                simple.Delete(source)
+        self._loose = []
+
+    # The pipeline -----------------------------------------------------------------------------
+
+    def _made(self, part, kind, name, **inputs):
+        """A part of the pipeline: made if it is missing, with these inputs; deleted if one of them
+        is missing."""
+        from paraview import simple
+
+        source = self.part(part)
+        if any(value is None for value in inputs.values()):
+            if source is not None:
+                simple.Delete(source)
+            return None
+        if source is None:
+            source = getattr(simple, kind)(registrationName=name, **inputs)
+            source.SMProxy.SetAnnotation(MARK + part, self._name)
+            return source
+        self._set(source, inputs)
+        return source
+
+    @_kept
+    def _wire(self):
+        """Makes the pipeline agree with roles and settings. Nothing that agrees is touched."""
+        volume = self.volume
+        name = _stem(volume) if volume else ""
+        if volume is None:
+            for part in ("fit", *_MADE):
+                self._made(part, "", "", Input=None)
+        bent = self._made("bent", "FreeFormDeformation", f"{name} bent", Input=volume)
+        if bent is not None:
+            for key, value in self._settings.items():
+                bent.SMProxy.SetAnnotation(SETTING + key, json.dumps(value))
+            self._limit(bent)
+            fit = self.fit_source()
+            if fit is not None and fit.SMProxy.HasAnnotation(MARK + "fit"):
+                self._set(fit, {"Input": volume, **_shared(bent), "Mask": bent.Mask,
+                                **self._measurements()})
+            self._distances(bent)
+            comparison = self._made("comparison", "CompareVolumes", "comparison", Input=bent,
+                                    Reference=self.reference)
+            if comparison is not None:
+                self._set(comparison, {"Cavity": self.cavity, "CavityLabels": self.cavity_labels})
+        self._delete_loose()
+
+    @staticmethod
+    def _set(source, values):
+        """Sets properties that are not so yet."""
+        for name, value in values.items():
+            present = getattr(source, name)
+            is_source = value is None or hasattr(value, "SMProxy")
+            same = (present == value if is_source else
+                    list(present) == list(value) if isinstance(value, (list, tuple)) else
+                    source.GetPropertyValue(name) == value)
+            if not same:
+                setattr(source, name, value)
+
+    def _limit(self, bent):
+        """What is drawn and what may move."""
+        held = self.brain if self.holds_outside else None
+        self._set(bent, {"Segmentation": self.brain, "Mask": held, "MaskLabels": self.brain_labels,
+                         "MaskGrowth": self.mask_growth})
+
+    def cortex(self):
+        """The properties that define the cortex; empty if nothing does."""
+        if self.brain is not None:
+            labels = self.brain_labels
+            if len(labels) == 1:
+                return {"Segmentation": self.brain, "SurfaceBy": "Label", "Label": labels[0]}
+            return {"Segmentation": self.brain, "SurfaceBy": "Threshold", "Threshold": 0.5}
+        if self.surface_level is not None:
+            return {"Segmentation": None, "SurfaceBy": "Threshold",
+                    "Threshold": self.surface_level}
+        return {}
+
+    def _distances(self, bent):
+        cortex = self.cortex()
+        for part, points, name in (("trace_distance", self.traces, "trace distance"),
+                                   ("contact_distance", self.electrodes, "contact distance")):
+            measure = self._made(part, "TraceDistance", name, Input=points if cortex else None,
+                                 Deformation=bent)
+            if measure is not None:
+                self._set(measure, {**cortex, "Cavity": self.cavity})
+
+    def _on_cortex(self):
+        """The source of all points that lie on the cortex."""
+        points = [source for source in (self.traces, self.electrodes) if source is not None]
+        if len(points) < 2:
+            self._made("joined", "", "", Input=None)
+            return points[0] if points else None
+        return self._made("joined", "AppendDatasets", "traced points and contacts", Input=points)
+
+    def _measurements(self):
+        """The inputs of a fit."""
+        rest, measured = self.landmarks or (None, None)
+        if self.landmarks_judge or not (rest and measured):
+            rest = measured = None
+        ball = self.opening_ball() or ((0.0, 0.0, 0.0), 0.0)
+        return {"RestLandmarks": rest, "MeasuredLandmarks": measured, "Traces": self._on_cortex(),
+                "Opening": self.part("opening"), "OpeningCentre": list(ball[0]),
+                "OpeningRadius": float(ball[1]), "Cavity": self.cavity, **self.cortex()}
+
+    def fit_source(self):
+        """The fit that bends the volume, or None."""
+        lattice = self.bent.Lattice if self.bent else None
+        return lattice if is_kind(lattice, "FitDeformation") else None
+
+    # Actions ----------------------------------------------------------------------------------
+
+    @_kept
+    def show(self, view=None, look=None):
+        """Show the bent volume in a render view, with a look.
+
+        - `view`: a render view. The default, `None`, is the active one, or a new one.
+        - `look`: a name of `brainshift.looks`. The default, `None`, is Brain if there is a brain.
+        """
+        from paraview import simple
+
+        from .looks import look as set_look, looks
+
+        view = view or simple.GetActiveViewOrCreate("RenderView")
+        shown = simple.Show(self.bent, view, "UniformGridRepresentation")
+        shown.SetRepresentationType("Deformed Volume")
+        names = looks(shown)
+        wanted = look or ("Brain" if "Brain" in names else names[0] if names else None)
+        if wanted:
+            set_look(shown, wanted, view)
+        shown.SetScalarBarVisibility(view, False)
+        return shown
+
+    @_kept
+    def fit(self):
+        """Fit the deformation to traces, electrodes and landmarks, as `brainshift.fit` does.
+
+        The fit keeps following the roles: other traces are fitted at the next update.
+
+        Returns a `Fit`. Raises `ValueError` with the reason if it fails; the case stays as it was.
+        """
+        from paraview import simple
+
+        bent, former = self.bent, self.bent.Lattice
+        base = former.Base if is_kind(former, "FitDeformation") else former
+        values = {name: value for name, value in self._measurements().items() if value is not None}
+        source = own(simple.FitDeformation(
+            registrationName="fit", Input=bent.Input, **_shared(bent), **values,
+            **({"Base": base} if base else {})))
+        source.UpdatePipeline()
+        problem = reason_of(source)
+        if problem:
+            simple.Delete(source)
+            raise ValueError(problem)
+        source.SMProxy.SetAnnotation(MARK + "fit", self._name)
+        bent.Lattice = source
+        forget_former(former)
+        return Fit(source)
+
+    @_kept
+    def refine(self, **settings):
+        """Refine the deformation by the reference: see `brainshift.refine` for the settings."""
+        from .registering import refine
+
+        return refine(self.bent, self.comparison, **settings)
+
+    def judge(self):
+        """Judge the deformation by the landmarks, and keep the line as what Judge found.
+
+        Landmarks that the fit used are judged by leaving them out, others by their errors now.
+        """
+        import numpy
+
+        fit = self.fit_source()
+        if fit is not None and fit.RestLandmarks:
+            left_out = Fit(fit).leave_one_out
+            known = left_out[numpy.isfinite(left_out)]
+            self.judged = (f"leave-one-out error {known.mean():.2f} mm in the mean, "
+                           f"{known.max():.2f} mm at most, of {len(known)} landmarks"
+                           if len(known) else "no landmark is constrained by the others")
+        else:
+            errors = self.landmark_errors()
+            if errors is None:
+                raise ValueError("no landmark has a partner")
+            self.judged = repr(errors).removeprefix("TargetErrors: ")
+        return self.judged
+
+    @_kept
+    def export(self, folder):
+        """Write the bent volume, the displacement field and, after `resect`, the tumour's labels.
+
+        - `folder`: path of the folder. It is made if it is missing.
+
+        Returns the paths of the files.
+        """
+        from paraview import simple
+
+        from .files import save_field, save_volume
+        from .views import world_axes
+
+        os.makedirs(folder, exist_ok=True)
+        name = os.path.join(folder, _stem(self.volume))
+        baked = simple.BakeDeformation(Input=self.bent, Interpolation="Cubic")
+        try:
+            save_volume(baked, f"{name}_bent.nii.gz")
+        finally:
+            simple.Delete(baked)
+        save_field(self.bent, f"{name}_field.nii.gz")
+        files = [f"{name}_bent.nii.gz", f"{name}_field.nii.gz"]
+        if self.resection is not None:
+            for frame in ("rest", "deformed"):
+                files.append(f"{name}_tumour_{frame}.nii.gz")
+                self.resection.save(files[-1], frame, world_axes(self.volume))
+        self.exported = files
+        return files
+
+    @_kept
+    def resect(self, **settings):
+        """Find how much tumour is left: see `brainshift.resect` for the settings.
+
+        Returns a `Resection`, also kept as `resection`. Raises `ValueError` without a volume, a
+        tumour and a cavity.
+        """
+        from .resecting import resect
+
+        missing = [role for role in ("volume", "tumour", "cavity") if getattr(self, role) is None]
+        if missing:
+            raise ValueError(f"the resection lacks a {missing[0]}")
+        self.resection = resect(
+            self.bent, self.tumour, self.cavity, tumour_labels=self.tumour_labels,
+            cavity_labels=self.cavity_labels, compare=self.comparison, **settings)
+        return self.resection
+
+    def __repr__(self):
+        roles = ", ".join(role for role in ROLES if getattr(self, role) is not None) or "no role"
+        lines = [f"  {step.name}: {step.state}"
+                 + (f", {step.lacks}" if step.lacks else f": {step.found}" if step.found else "")
+                 for step in self.steps]
+        if self.resection is not None:
+            lines.append(f"  {self.resection}")
+        return "\n".join([f"Case with {roles}", *lines])

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sorts the files of a folder into the roles of a case, by kind, name and content."""
+
+import collections
+import os
+import re
+
+from .images import Labels, fetched
+
+#: The roles of a case, in the order in which they are shown.
+ROLES = ("volume", "brain", "tumour", "traces", "opening", "landmarks", "electrodes", "reference",
+         "cavity")
+
+#: Endings of files with points, and of volumes.
+POINTS = (".mrk.json", ".fcsv", ".tag", ".csv", ".tsv")
+VOLUMES = (".nii", ".nii.gz", ".mha", ".mhd", ".nrrd", ".nhdr", ".mgz", ".mgh", ".mnc", ".mif",
+           ".mif.gz", ".vti")
+
+#: Words of names and the roles they mean, the first that matches counts. A word is a part of the
+#: name between signs, digits and changes of case.
+_POINT_WORDS = (
+    ("landmarks", "landmark landmarks fiducial fiducials pairs tags"),
+    ("electrodes", "electrode electrodes contact contacts ecog ieeg grid strip eeg"),
+    ("traces", "trace traces traced pointer surface cortex"))
+_VOLUME_WORDS = (
+    ("cavity", "cavity resection resected"),
+    ("opening", "opening craniotomy bone flap"),
+    ("tumour", "tumour tumor lesion glioma gtv metastasis meningioma"),
+    ("brain", "brain brainmask bet skullstrip mask parenchyma"),
+    ("reference", "post postop postoperative intraop intraoperative ius us ioct after during "
+                  "reference followup"),
+    ("volume", "pre preop preoperative before mr mri flair ct head anat mprage"))
+
+#: Files beside the data that have no role.
+_ASIDE = ("coordsystem", "dataset_description", "participants", "manifest", "channels", "events")
+
+#: Ends of the volume (ml) of a brain, and the most different values that a label map has.
+_BRAIN_ML = (600.0, 2200.0)
+_MOST_LABELS = 64
+
+Proposed = collections.namedtuple("Proposed", "role file reason")
+
+
+def ending(path):
+    """The ending of a file of points or of a volume, or an empty text."""
+    name = os.path.basename(path).lower()
+    return next((end for end in sorted(POINTS + VOLUMES, key=len, reverse=True)
+                 if name.endswith(end)), "")
+
+
+def _words(path):
+    name = os.path.basename(path)
+    name = re.sub(r"([a-z])([A-Z])", r"\1 \2", name[:len(name) - len(ending(path))])
+    return [word.lower() for word in re.split(r"[^A-Za-z]+", name) if word]
+
+
+def _by_words(path, table):
+    """The first role of a table that a word of the name means, and the word."""
+    words = _words(path)
+    for role, known in table:
+        found = next((word for word in words if word in known.split()), None)
+        if found:
+            return role, f"its name has the word {found}"
+    return None, ""
+
+
+def column_sets(path):
+    """The sets of three columns of a table that hold positions: a list of lists of names.
+
+    The names of a set differ in one letter, x, y, z or r, a, s or l, p, s, at their start or end
+    or as a word of their own.
+    """
+    with open(path, encoding="utf-8-sig", errors="replace") as file:
+        header = next((line for line in file if line.strip() and not line.startswith("#")), "")
+    names = [name.strip().strip('"') for name in re.split(r"[,;\t]", header)]
+    sets = collections.OrderedDict()
+    for axes in ("xyz", "ras", "lps"):
+        for name in names:
+            for where, axis in enumerate(axes):
+                for rest in {re.sub(rf"(?i)(^|[_ .:-]){axis}([_ .:-]|$)", r"\1*\2", name),
+                             re.sub(rf"(?i)^{axis}(?=\d*$)", "*", name)} - {name}:
+                    sets.setdefault((axes, rest.lower()), [None] * 3)[where] = name
+    return [found for found in sets.values() if all(found)]
+
+
+def _points_role(path):
+    """The role of a file of points, and why; None if nothing says one."""
+    if ending(path) == ".tag":
+        with open(path, encoding="utf-8", errors="replace") as file:
+            if re.search(r"Volumes\s*=\s*2", file.read(4096)):
+                return "landmarks", "it has the points of two volumes"
+    is_table = ending(path) in (".csv", ".tsv")
+    sets = column_sets(path) if is_table else []
+    if len(sets) == 2:
+        return "landmarks", "it has two sets of positions"
+    role, reason = _by_words(path, _POINT_WORDS)
+    if role or not is_table:
+        return role, reason
+    return ("traces", "it is a table of positions") if sets else (None, "")
+
+
+def _labels_role(path):
+    """The role of a volume whose name says none, by its values, and why."""
+    from paraview import simple
+
+    active, source = simple.GetActiveSource(), None
+    try:
+        source = open_file(path)
+        return _role_of_image(fetched(source))
+    except (ValueError, RuntimeError) as error:
+        return None, f"it cannot be read: {error}"
+    finally:
+        if source is not None:
+            simple.Delete(source)
+        simple.SetActiveSource(active)
+
+
+def _role_of_image(image):
+    """The role of an image by its values, and why."""
+    import numpy
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    scalars = image.GetPointData().GetScalars() or image.GetPointData().GetArray(0)
+    values = numpy.unique(vtk_to_numpy(scalars)) if scalars else numpy.empty(0)
+    if len(values) > _MOST_LABELS or not numpy.array_equal(values, numpy.rint(values)):
+        return "volume", "it has grey values"
+    labels = Labels(image)
+    ml = float(labels.inside.sum()) * labels.voxel / 1000.0
+    if _BRAIN_ML[0] <= ml <= _BRAIN_ML[1]:
+        return "brain", f"its labels have {ml:.0f} ml, as a brain"
+    return ("tumour", f"its labels have {ml:.1f} ml") if ml < _BRAIN_ML[0] else (None, "")
+
+
+def _is_series(path):
+    """Whether a folder has DICOM files."""
+    if not os.path.isdir(path):
+        return False
+    for name in sorted(os.listdir(path))[:3]:
+        file = os.path.join(path, name)
+        if os.path.isfile(file):
+            with open(file, "rb") as opened:
+                if opened.read(132)[128:] == b"DICM":
+                    return True
+    return False
+
+
+def _role_of(path):
+    if ending(path) in POINTS:
+        return _points_role(path)
+    role, reason = _by_words(path, _VOLUME_WORDS)
+    return (role, reason) if role else _labels_role(path)
+
+
+def proposed(folder):
+    """What each file of a folder may be: a list of Proposed, the role None where nothing says one.
+
+    A role is given once, to the first file in the order of names; `reason` says what spoke for it,
+    or who has the role already.
+    """
+    found, taken = [], {}
+    for name in sorted(os.listdir(folder)):
+        path = os.path.join(folder, name)
+        is_aside = any(word in name.lower() for word in _ASIDE)
+        if name.startswith(".") or is_aside or not (ending(path) or _is_series(path)):
+            continue
+        role, reason = _role_of(path)
+        if role == "volume" and "volume" in taken and "grey" in reason:
+            role, reason = "reference", "it is the second volume with grey values"
+        if role in taken:
+            role, reason = None, f"{taken[role]} is the {role} already; {reason}"
+        if role:
+            taken[role] = name
+        found.append(Proposed(role, path, reason or "nothing says what it is"))
+    return found
+
+
+def open_file(path, **properties):
+    """A ParaView source of a file. Raises `FileNotFoundError` or `ValueError` with the reason."""
+    from paraview import simple
+
+    from .files import reason_of
+
+    path = os.fspath(path)
+    if not os.path.exists(path):
+        raise FileNotFoundError(f"there is no {path}")
+    if ending(path) in POINTS or path.lower().endswith(".json"):
+        source = simple.LandmarkReader(FileName=path, **properties)
+    elif ending(path) in (".nii", ".nii.gz"):
+        source = simple.NIFTIVolumeReader(FileName=path)
+    elif os.path.isdir(path):
+        source = simple.DICOMVolumeReader(FileName=path)
+    else:
+        source = simple.OpenDataFile(path)
+    if source is None:
+        raise ValueError(f"{path} has a format that ParaView does not read")
+    source.UpdatePipeline()
+    problem = reason_of(source) if source.SMProxy.GetProperty("Problem") else ""
+    if problem or source.GetDataInformation().GetNumberOfPoints() == 0:
+        simple.Delete(source)
+        raise ValueError(problem or f"{path} holds no data")
+    return source

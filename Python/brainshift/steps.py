@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The steps of a case: what each lacks, and what it found."""
+
+import collections
+import os
+
+from .files import figures_of, reason_of
+from .fitting import Fit, is_kind
+
+STEPS = ("Look", "Measure", "Fit", "By hand", "Refine", "Judge", "Export")
+
+Step = collections.namedtuple("Step", "name state lacks found")
+Step.__doc__ = """A step of a case.
+
+- `name`: Look, Measure, Fit, By hand, Refine, Judge or Export
+- `state`: `"done"`, `"ready"`, or `"lacks"` if something is missing
+- `lacks`: what is missing, or an empty text
+- `found`: what it found, in a line with units, or an empty text
+"""
+
+_NUMBERS_PER_STROKE = 14
+
+
+class Steps:
+    """The steps of a `Case`, which derives from this."""
+
+    @property
+    def steps(self):
+        """The steps of the case, a list of `Step`: what each lacks, and what it found."""
+        found = []
+        for name in STEPS:
+            lacks, line = getattr(self, "_step_" + name.lower().replace(" ", "_"))()
+            state = "lacks" if lacks else "done" if line else "ready"
+            found.append(Step(name, state, lacks, line))
+        return found
+
+    def _step_look(self):
+        volume = self.volume
+        if volume is None:
+            return "a volume", ""
+        volume.UpdatePipeline()  # after a state was loaded it has no extent yet
+        information = volume.GetDataInformation()
+        low_x, high_x, low_y, high_y, low_z, high_z = information.GetExtent()
+        sides = high_x - low_x + 1, high_y - low_y + 1, high_z - low_z + 1
+        bounds = information.GetBounds()
+        spans = [(bounds[2 * i + 1] - bounds[2 * i]) for i in range(3)]
+        return "", (" x ".join(str(side) for side in sides) + " voxels, "
+                    + " x ".join(f"{span:.0f}" for span in spans) + " mm")
+
+    def _step_measure(self):
+        if self.bent is None:
+            return "a volume", ""
+        lines = []
+        for measure, name in ((self.trace_distance, "traced points"),
+                              (self.contact_distance, "contacts")):
+            if measure is not None:
+                figures_of(measure)
+                total = measure.Input.GetDataInformation().GetNumberOfPoints()
+                lines.append(f"{measure.Count} of {total} {name} count, {measure.RMS:.2f} mm from "
+                             f"the cortex (RMS), {measure.Mean:+.2f} mm in the mean")
+        errors = self.landmark_errors()
+        if errors is not None:
+            lines.append(f"{len(errors.errors)} landmarks, {errors.mean:.2f} mm in the mean, "
+                         f"{errors.largest:.2f} mm at most")
+        if lines:
+            return "", "; ".join(lines)
+        if self.traces is None and self.electrodes is None:
+            return "traces, electrodes, or landmarks with both positions", ""
+        return "a brain, or a surface_level", ""
+
+    def landmark_errors(self):
+        """Errors of the landmarks now, mm; None without pairs or if none match."""
+        from .judging import tre
+        from .points import read_from
+
+        rest, measured = self.landmarks or (None, None)
+        if not (rest and measured):
+            return None
+        try:
+            return tre(self.bent, read_from(rest), read_from(measured))
+        except ValueError:
+            return None
+
+    def _step_fit(self):
+        points = self.traces is not None or self.electrodes is not None
+        pair = all(self.landmarks or (None,)) and not self.landmarks_judge
+        if self.volume is None:
+            return "a volume", ""
+        if not (points or pair):
+            return "traces, electrodes, or landmarks with both positions", ""
+        if points and not self.cortex():
+            return "a brain, or a surface_level", ""
+        fit = self.fit_source()
+        if fit is None:
+            return "", ""
+        figures_of(fit)
+        return "", reason_of(fit) or repr(Fit(fit)).removeprefix("Fit: ")
+
+    def _step_by_hand(self):
+        if self.bent is None:
+            return "a volume", ""
+        bent = figures_of(self.bent)
+        count = len(bent.Strokes) // _NUMBERS_PER_STROKE
+        if not count:
+            return "", ""
+        return "", (f"{count} strokes, largest displacement {bent.MaximumDisplacement:.1f} mm, "
+                    f"smallest Jacobian determinant {bent.MinimumJacobian:.2f}")
+
+    def _step_refine(self):
+        if self.volume is None or self.reference is None:
+            return "a volume" if self.volume is None else "a reference", ""
+        if not is_kind(self.bent.Lattice, "RefinedLattice"):
+            return "", ""
+        bent = figures_of(self.bent)
+        return "", (f"largest displacement {bent.MaximumDisplacement:.1f} mm, smallest Jacobian "
+                    f"determinant {bent.MinimumJacobian:.2f}")
+
+    def _step_judge(self):
+        if not all(self.landmarks or (None,)):
+            return "landmarks with both positions", ""
+        return "", "" if self.judged is None else self.judged
+
+    def _step_export(self):
+        return "" if self.volume else "a volume", (
+            f"{len(self.exported)} files: " + ", ".join(
+                os.path.basename(file) for file in self.exported) if self.exported else "")
+
+    def run(self, step, **settings):
+        """Do a step.
+
+        - `step`: `"Look"`, `"Measure"`, `"Fit"`, `"Refine"`, `"Judge"` or `"Export"`. By hand is
+          not one that a script does: set `case.bent.Strokes`.
+        - `settings`: of `show` (Look), `brainshift.refine` (Refine), and `folder` (Export)
+
+        Returns the `Step` afterwards.
+
+        Raises `ValueError` if the step lacks something, or with the reason if it fails. The case
+        then stays as it was.
+        """
+        actions = {"Look": self.show, "Measure": lambda: None, "Fit": self.fit,
+                   "Refine": self.refine, "Judge": self.judge, "Export": self.export}
+        if step not in actions:
+            raise ValueError(f"step is {step!r}; it must be one of {', '.join(actions)}")
+        present = self.steps[STEPS.index(step)]
+        if present.state == "lacks":
+            raise ValueError(f"{step} lacks {present.lacks}")
+        actions[step](**settings)
+        return self.steps[STEPS.index(step)]

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Does one case of a batch: `pvpython worker.py JOB`, the job as JSON."""
+
+import json
+import os
+import sys
+import traceback
+
+
+def load_plugin():
+    """Loads the plugin unless ParaView has it."""
+    from paraview import servermanager, simple
+
+    manager = servermanager.ActiveConnection.Session.GetSessionProxyManager()
+    if not manager.GetProxyDefinitionManager().HasDefinition("filters", "FreeFormDeformation"):
+        simple.LoadPlugin(os.environ["BRAINSHIFT_PLUGIN"], remote=False, ns=vars(simple))
+
+
+def figures_of_case(case):
+    """The numbers of a case for the table of the batch."""
+    from brainshift.files import figures_of
+
+    bent = figures_of(case.bent)
+    found = {"largest displacement (mm)": float(bent.MaximumDisplacement),
+             "smallest Jacobian determinant": float(bent.MinimumJacobian)}
+    measure = case.trace_distance or case.contact_distance
+    if measure is not None:
+        found["traced points RMS (mm)"] = float(figures_of(measure).RMS)
+    errors = case.landmark_errors()
+    if errors is not None:
+        found["landmarks mean (mm)"] = errors.mean
+    if case.resection is not None:
+        found.update({"tumour before (ml)": case.resection.before,
+                      "tumour left (ml)": case.resection.left})
+        if case.resection.left_interval:
+            found["left, from (ml)"], found["left, to (ml)"] = case.resection.left_interval
+    return found
+
+
+def run(job):
+    """Does the steps of a job and returns its figures."""
+    import brainshift
+    from brainshift.batching import PAGE
+
+    case = brainshift.Case(**{role: path for role, path in job["case"].items() if role != "name"})
+    for step in job["steps"]:
+        print(step, flush=True)
+        lacking = {each.name: each.lacks for each in case.steps}
+        if step == "Resect":
+            if case.tumour is not None and case.cavity is not None:
+                case.resect()
+        elif step == "Report":
+            brainshift.report(case, os.path.join(job["folder"], PAGE), title=job["case"]["name"])
+        elif step == "Export":
+            case.run(step, folder=os.path.join(job["folder"], "files"))
+        elif step in ("Judge", "Refine") and lacking[step]:
+            print(f"left out: it lacks {lacking[step]}", flush=True)
+        else:
+            case.run(step)
+    return figures_of_case(case)
+
+
+def main(job):
+    """Does a job and writes its result, whole or not at all."""
+    from brainshift.batching import RESULT
+
+    result = {"key": job["key"], "problem": "", "figures": {}}
+    try:
+        load_plugin()
+        result["figures"] = run(job)
+    except Exception as error:  # whatever it is, the batch goes on and reports it
+        traceback.print_exc()
+        result["problem"] = str(error) or type(error).__name__
+    target = os.path.join(job["folder"], RESULT)
+    with open(target + ".part", "w", encoding="utf-8") as file:
+        json.dump(result, file)
+    os.replace(target + ".part", target)
+
+
+if __name__ == "__main__":
+    main(json.loads(sys.argv[1]))

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that the report of a case is one page that needs nothing else: its pictures are inside and
+# differ as they must, its figures are those of the case, hashes are those of the files, and it
+# names no patient unless asked.
+import base64
+import hashlib
+import re
+from html.parser import HTMLParser
+
+import numpy
+from brainshift_testing import assert_says, load_plugin, run_tests, scratch
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from brainshift.drawing import ORANGE  # noqa: E402
+from paraview import simple  # noqa: E402
+from patient_testing import TOP, make_patient  # noqa: E402
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
+
+FOLDER = scratch("Doe^John")
+ROLES = {"volume": "sub-1_T1w.nii.gz", "brain": "sub-1_brainmask.nii.gz",
+         "tumour": "sub-1_Tumor.nii.gz", "traces": "pointer.csv", "landmarks": "targets.csv",
+         "cavity": "cavity.nii.gz"}
+VOID = {"meta", "img", "br"}
+
+
+def fitted():
+    simple.ResetSession()
+    load_plugin()
+    make_patient(FOLDER)
+    case = brainshift.Case(**{role: f"{FOLDER}/{name}" for role, name in ROLES.items()},
+                           opening=(TOP, 27.0))
+    case.landmarks_judge = True
+    case.run("Fit")
+    case.run("Judge")
+    case.resect(fields=50)
+    return case
+
+
+def text_of(file):
+    with open(file, encoding="utf-8") as opened:
+        return opened.read()
+
+
+class Balanced(HTMLParser):
+    """Raises an error where tags do not match."""
+
+    def __init__(self):
+        super().__init__()
+        self.open = []
+
+    def handle_starttag(self, tag, attributes):
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open.pop() == tag, (tag, self.getpos())
+
+
+def pictures(page):
+    """All pictures, indexed [row from below, column, colour]."""
+    found = []
+    for data in re.findall(r"data:image/png;base64,([^\"]+)", page):
+        with open(scratch("one.png"), "wb") as file:
+            file.write(base64.b64decode(data))
+        reader = vtkPNGReader()
+        reader.SetFileName(scratch("one.png"))
+        reader.Update()
+        width, height, _ = reader.GetOutput().GetDimensions()
+        scalars = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
+        found.append(scalars.reshape(height, width, -1)[:, :, :3].astype(int))
+    return found
+
+
+def test_one_page_has_all_of_it():
+    case = fitted()
+    views = len(simple.GetRenderViews())
+    sources = sorted(name for name, _ in simple.GetSources())
+    page = text_of(brainshift.report(case, scratch("report.html")))
+    assert sorted(name for name, _ in simple.GetSources()) == sources
+    assert len(simple.GetRenderViews()) == views
+    Balanced().feed(page)
+    assert not re.search(r"(src|href)=\"(?!data:)", page), "the page needs another file"
+    assert "<script" not in page
+    assert page.count("Research software, not for clinical use") == 2
+    assert_says(page, "prefers-color-scheme: dark", "@page { size: A4", "Resection", "Evidence",
+                "Measurements", "Settings", "Versions", f"{case.resection.left:.2f} ml",
+                f"{case.trace_distance.RMS:.2f} mm", "90 % interval")
+    for name in ROLES.values():
+        with open(f"{FOLDER}/{name}", "rb") as file:
+            assert hashlib.sha256(file.read()).hexdigest() in page, name
+        assert name not in page, "a name of a file may name the patient"
+    words = re.sub(r"data:[^\"]+", "", page)
+    assert "Doe" not in words and FOLDER not in words
+    named = brainshift.report(case, scratch("names.html"), names=True)
+    assert_says(text_of(named), *ROLES.values())
+
+
+def test_the_pictures_show_what_they_say():
+    page = text_of(scratch("report.html"))
+    shown = pictures(page)
+    assert len(shown) == 2 + 3 + 3 + 3 + 2 + 3, len(shown)
+    for before, after in ((0, 1), (2, 5), (11, 12)):
+        assert shown[before].max() > 100, "a picture is black"
+        assert numpy.abs(shown[before] - shown[after]).mean() > 0.2, (before, after)
+    # The tumour: orange where it is left, blue where it was removed.
+    red, green, blue = numpy.concatenate(shown[8:11]).transpose(2, 0, 1)
+    is_left = (red > 1.3 * green) & (green > 1.3 * blue) & (red > 0.5 * ORANGE[0])
+    assert is_left.sum() > 50 and ((blue > red + 40) & (blue > green + 20)).sum() > 50
+    for picture, plain in zip(shown[13:16], shown[5:8]):
+        assert numpy.abs(picture - plain).mean() > 1.0, "no evidence is drawn"
+
+
+def test_a_case_with_less_has_a_shorter_page():
+    simple.ResetSession()
+    load_plugin()
+    case = brainshift.Case(volume=f"{FOLDER}/sub-1_T1w.nii.gz")
+    page = text_of(brainshift.report(case, scratch("short.html")))
+    Balanced().feed(page)
+    assert "Resection" not in page and "Evidence" not in page
+    assert len(pictures(page)) == 8
+    try:
+        brainshift.report(brainshift.Case(), scratch("none.html"))
+    except ValueError as error:
+        assert_says(str(error), "no volume")
+    else:
+        raise AssertionError("a case without a volume has a report")
+
+
+run_tests(globals())
