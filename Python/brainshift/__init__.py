@@ -18,6 +18,7 @@ from .figures import animate, figure
 from .files import (
     dicom_patient, load_field, load_lattice, save_dicom, save_field, save_lattice, save_volume)
 from .fitting import Fit, fit
+from .grids import ElectrodeGrid, Electrodes, electrodes
 from .judging import TargetErrors, tre
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
@@ -31,10 +32,11 @@ from .views import four_views, show_comparison
 from .windows import percentile_window
 
 __all__ = [
-    "Alignment", "Fit", "MOVE", "NUMBERS_PER_STROKE", "Refinement", "RegistrationFailed",
-    "SOFT", "STAMP",
+    "Alignment", "ElectrodeGrid", "Electrodes", "Fit", "MOVE", "NUMBERS_PER_STROKE",
+    "Refinement", "RegistrationFailed", "SOFT", "STAMP",
     "TargetErrors", "Transform", "align", "animate", "apply_transform", "counters",
-    "deformed_from_rest", "dicom_patient", "figure", "fit", "four_views", "gpu",
+    "deformed_from_rest", "dicom_patient", "electrodes", "figure", "fit", "four_views",
+    "gpu",
     "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
     "percentile_window", "pick", "read_points", "read_transform", "refine",
     "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_transform",
