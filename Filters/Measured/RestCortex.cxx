@@ -80,7 +80,69 @@ RestCortex::RestCortex(const TissueRegion& tissue)
   : Mesh(surfaceOf(tissue))
   , Tree(this->Mesh)
 {
-  this->findNormals(tissue);
+  this->findNormals();
+  // Which way triangles turn depends on the grid's axes and on the tissue's side of the level.
+  const std::vector<glm::dvec3>& points = this->Mesh.points;
+  const glm::dvec3& spacing = tissue.grid.spacing;
+  const double aside = AsideVoxels * glm::min(spacing.x, glm::min(spacing.y, spacing.z));
+  int inwards = 0;
+  for (std::size_t i = 0; i < points.size(); i += points.size() / Asked + 1)
+  {
+    inwards += tissue.contains(points[i] + aside * this->Normals[i]) ? 1 : -1;
+    inwards += tissue.contains(points[i] - aside * this->Normals[i]) ? -1 : 1;
+  }
+  this->turnOutwards(inwards);
+  this->spread();
+}
+
+RestCortex::RestCortex(TriangleMesh mesh)
+  : Mesh(std::move(mesh))
+  , Tree(this->Mesh)
+{
+  this->findNormals();
+  const std::vector<glm::dvec3>& points = this->Mesh.points;
+  glm::dvec3 middle(0.0);
+  for (const glm::dvec3& point : points)
+  {
+    middle += point / static_cast<double>(points.size());
+  }
+  int inwards = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    inwards += glm::dot(this->Normals[i], points[i] - middle) < 0.0 ? 1 : -1;
+  }
+  this->turnOutwards(inwards);
+  this->spread();
+}
+
+RestCortex RestCortex::smoothed() const
+{
+  constexpr int Rounds = 20;
+  TriangleMesh mesh = this->Mesh;
+  std::vector<glm::dvec3>& points = mesh.points;
+  for (int i = 0; i < 2 * Rounds; ++i)
+  {
+    const double fraction = i % 2 == 0 ? 0.6 : -0.62; // inwards, then outwards
+    std::vector<glm::dvec3> sums(points.size(), glm::dvec3(0.0));
+    std::vector<double> counts(points.size(), 0.0);
+    for (const glm::ivec3& t : mesh.triangles)
+    {
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        sums[t[corner]] += points[t[(corner + 1) % 3]] + points[t[(corner + 2) % 3]];
+        counts[t[corner]] += 2.0;
+      }
+    }
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      points[k] += counts[k] > 0.0 ? fraction * (sums[k] / counts[k] - points[k]) : glm::dvec3(0.0);
+    }
+  }
+  return RestCortex(std::move(mesh));
+}
+
+void RestCortex::spread()
+{
   // Beside voxels that are no number, points are left that no triangle has.
   std::vector<char> isUsed(this->Mesh.points.size(), 0);
   for (const glm::ivec3& t : this->Mesh.triangles)
@@ -99,7 +161,7 @@ RestCortex::RestCortex(const TissueRegion& tissue)
   this->Spread = thinnedPoints(all, SpreadMm);
 }
 
-void RestCortex::findNormals(const TissueRegion& tissue)
+void RestCortex::findNormals()
 {
   const std::vector<glm::dvec3>& points = this->Mesh.points;
   this->Normals.assign(points.size(), glm::dvec3(0.0));
@@ -124,15 +186,10 @@ void RestCortex::findNormals(const TissueRegion& tissue)
     }
     std::transform(sums.begin(), sums.end(), this->Normals.begin(), unit);
   }
-  // Which way triangles turn depends on the grid's axes and on the tissue's side of the level.
-  const glm::dvec3& spacing = tissue.grid.spacing;
-  const double aside = AsideVoxels * glm::min(spacing.x, glm::min(spacing.y, spacing.z));
-  int inwards = 0;
-  for (std::size_t i = 0; i < points.size(); i += points.size() / Asked + 1)
-  {
-    inwards += tissue.contains(points[i] + aside * this->Normals[i]) ? 1 : -1;
-    inwards += tissue.contains(points[i] - aside * this->Normals[i]) ? -1 : 1;
-  }
+}
+
+void RestCortex::turnOutwards(int inwards)
+{
   if (inwards > 0)
   {
     std::transform(this->Normals.begin(), this->Normals.end(), this->Normals.begin(),

@@ -26,6 +26,19 @@ public:
   /** The surface of tissue. */
   explicit RestCortex(const TissueRegion& tissue);
 
+  /**
+   * A surface that was found elsewhere. Its normals point away from the middle of its points, as
+   * most of them do.
+   */
+  explicit RestCortex(TriangleMesh mesh);
+
+  /**
+   * The same surface without the steps between voxels of a mask: points move towards their
+   * neighbours and back, which does not shrink it. Source: Taubin, "A signal processing approach to
+   * fair surface design", SIGGRAPH (1995).
+   */
+  RestCortex smoothed() const;
+
   bool isEmpty() const { return this->Mesh.triangles.empty(); }
 
   /**
@@ -39,7 +52,9 @@ public:
   const std::vector<SurfacePoint>& points() const { return this->Spread; }
 
 private:
-  void findNormals(const TissueRegion& tissue);
+  void findNormals();
+  void turnOutwards(int inwards);
+  void spread();
 
   TriangleMesh Mesh;
   std::vector<glm::dvec3> Normals; // of the points, unit vectors out of the tissue

@@ -20,6 +20,7 @@ from .figures import animate, figure
 from .files import (
     dicom_patient, load_field, load_lattice, save_dicom, save_field, save_lattice, save_volume)
 from .fitting import Fit, fit
+from .grids import ElectrodeGrid, Electrodes, electrodes
 from .judging import TargetErrors, tre
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
@@ -36,11 +37,11 @@ from .views import four_views, show_comparison
 from .windows import percentile_window
 
 __all__ = [
-    "Alignment", "Case", "Done", "Fit", "MOVE", "NUMBERS_PER_STROKE", "Refinement",
-    "RegistrationFailed", "Resection", "SOFT", "STAMP", "Step", "TargetErrors", "Transform",
-    "align", "animate", "apply_transform", "batch", "counters", "deformed_from_rest",
-    "dicom_patient", "figure", "fit", "four_views", "gpu", "load_field", "load_lattice", "look",
-    "looks", "map_points", "move", "open_sample", "percentile_window", "pick", "read_points",
-    "read_transform", "refine", "report", "resect", "rest_from_deformed", "save_dicom",
-    "save_field", "save_lattice", "save_transform", "save_volume", "show_comparison",
-    "similarities", "slice_axes", "soft", "stamp", "tre"]
+    "Alignment", "Case", "Done", "ElectrodeGrid", "Electrodes", "Fit", "MOVE",
+    "NUMBERS_PER_STROKE", "Refinement", "RegistrationFailed", "Resection", "SOFT", "STAMP", "Step",
+    "TargetErrors", "Transform", "align", "animate", "apply_transform", "batch", "counters",
+    "deformed_from_rest", "dicom_patient", "electrodes", "figure", "fit", "four_views", "gpu",
+    "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
+    "percentile_window", "pick", "read_points", "read_transform", "refine", "report", "resect",
+    "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_transform",
+    "save_volume", "show_comparison", "similarities", "slice_axes", "soft", "stamp", "tre"]

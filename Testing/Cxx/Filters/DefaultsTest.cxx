@@ -8,6 +8,7 @@
 #include "vtkDeformationField.h"
 #include "vtkDisplacementFieldReader.h"
 #include "vtkDisplacementFieldWriter.h"
+#include "vtkElectrodeGrids.h"
 #include "vtkFitDeformation.h"
 #include "vtkFreeFormDeformation.h"
 #include "vtkLandmarkReader.h"
@@ -115,6 +116,23 @@ TEST(Defaults, OfDICOMReaderLiveInTheClass)
   const Defaults expected{ { "Format", {} }, // the text "DICOM"
     { "ResampleSlices", { double(reader->GetResampleSlices()) } } };
   EXPECT_EQ(defaultsIn("Formats/DICOM/DICOMVolumeReader.xml"), expected);
+}
+
+TEST(Defaults, OfElectrodeGridsLiveInTheClass)
+{
+  vtkNew<vtkElectrodeGrids> filter;
+  const double* centre = filter->GetOpeningCentre();
+  const Defaults expected{
+    { "ContactDeviation", { filter->GetContactDeviation() } },
+    { "Label", { double(filter->GetLabel()) } },
+    { "OpeningCentre", { centre[0], centre[1], centre[2] } },
+    { "OpeningRadius", { filter->GetOpeningRadius() } },
+    { "ShowMissing", { double(filter->GetShowMissing()) } },
+    { "Stiffness", { filter->GetStiffness() } },
+    { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
+    { "Threshold", { filter->GetThreshold() } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/ElectrodeGrids.xml"), expected);
 }
 
 TEST(Defaults, OfFitDeformationLiveInTheClass)
