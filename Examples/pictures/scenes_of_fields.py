@@ -16,6 +16,7 @@ ARROWS_MM = 7.0  # between arrows
 LANDMARKS_MM = 14.0  # between landmarks
 IN_FRONT_MM = 8.0  # of a slice, so that what lies in its plane is seen
 LARGEST_MM = 12.0
+CONTACTS, PITCH_MM = 5, 10.0  # of a grid of electrodes, a side
 BEHIND = (-310.0, -15.0, 475.0)  # the control points that move
 
 # Displacements of the second input's points from those of the first.
@@ -217,6 +218,41 @@ def surfaces(width):
         return stage.side_by_side(views)
 
 
+def _contacts_on(mesh):
+    """Contacts of a grid laid over a mesh of the cortex, across its sulci; mm."""
+    data = simple.servermanager.Fetch(mesh)
+    points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+    out = numpy.subtract(stage.CORTEX, stage.CENTRE)
+    out /= numpy.linalg.norm(out)
+    along = numpy.cross(out, (0.0, 1.0, 0.0))
+    along /= numpy.linalg.norm(along)
+    axes = numpy.stack((along, numpy.cross(out, along), out))
+    places = (points - stage.CORTEX) @ axes.T
+    steps = PITCH_MM * (numpy.arange(CONTACTS) - 0.5 * (CONTACTS - 1))
+    contacts = []
+    for across in steps:
+        for beside in steps:
+            near = numpy.linalg.norm(places[:, :2] - (across, beside), axis=1) < 0.6 * PITCH_MM
+            height = places[near & (places[:, 2] > -30.0), 2].max()
+            contacts.append(stage.CORTEX + numpy.array((across, beside, height)) @ axes)
+    return numpy.array(contacts)
+
+
+def electrode_grids(width):
+    """Contacts of a grid on the brain as bent, and the tissue under them on the brain as loaded."""
+    import brainshift
+    side = width // 2
+    bent = stage.bend(stage.brain(), stage.push())
+    contacts = _contacts_on(
+        simple.DeformGeometry(Input=stage.cortex(stage.brain()), Deformation=bent))
+    found = brainshift.electrodes(contacts, stage.mask())
+    views = []
+    for volume, points in ((bent, contacts), (stage.bend(stage.brain()), found.rest)):
+        views.append(stage.brain_view(volume, side))
+        stage.show_balls(points, views[-1], stage.CYAN)
+    return stage.side_by_side(views)
+
+
 def deform_geometry(width):
     """A mesh of the brain as loaded, and moved along, coloured by how far, before a slice."""
     side = width // 2
@@ -239,4 +275,5 @@ FIELD_SCENES = {
     "filter-displacement-field-files": field_files,
     "filter-landmark-files": landmark_files,
     "filter-surfaces-and-tracts": surfaces,
+    "filter-electrode-grids": electrode_grids,
     "filter-deform-geometry": deform_geometry}
