@@ -138,7 +138,8 @@ bool Verification::finishInside()
   const std::string reason = insideReason(this->Inside->gain(), this->Inside->besideMm());
   if (!reason.empty())
   {
-    this->Found.lower(Trust::Doubtful, reason);
+    const bool isSecond = this->Found.trust == Trust::Doubtful; // of two checks that found a fault
+    this->Found.lower(isSecond ? Trust::Failed : Trust::Doubtful, reason);
   }
   this->Search = std::make_unique<OrientationSearch>(this->Check.pair(), this->Result);
   return true;
