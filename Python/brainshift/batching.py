@@ -3,9 +3,11 @@
 
 import collections
 import csv
+import glob
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +21,7 @@ BATCH_STEPS = ("Fit", "Refine", "Judge", "Resect", "Export", "Report")
 
 #: Names of files in the output: of each case, and of all.
 RESULT, LOG, PAGE, TABLE, INDEX = "result.json", "log.txt", "report.html", "cases.csv", "index.html"
+EXPORTED = "files"
 
 #: Names that a manifest may have, in this order.
 MANIFESTS = ("manifest.json", "manifest.csv")
@@ -28,11 +31,14 @@ MANIFESTS = ("manifest.json", "manifest.csv")
 _LEAST_BYTES, _BYTES_PER_BYTE = 1.5e9, 20.0
 
 #: Figures of the table, with units.
-FIGURES = ("traced points RMS (mm)", "landmarks mean (mm)", "largest displacement (mm)",
-           "smallest Jacobian determinant", "tumour before (ml)", "tumour left (ml)",
-           "left, from (ml)", "left, to (ml)")
+FIGURES = ("traced points RMS (mm)", "landmarks mean (mm)", "landmarks left out, mean (mm)",
+           "largest displacement (mm)", "smallest Jacobian determinant", "tumour before (ml)",
+           "tumour left (ml)", "left, from (ml)", "left, to (ml)")
 
 _PAUSE_S = 0.2
+
+#: Time (s) that a process gets to end before it is killed.
+_PATIENCE_S = 10.0
 
 _STYLE = """:root { color-scheme: light dark; }
 body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; margin: 0 auto; max-width: 80rem;
@@ -110,8 +116,27 @@ def read_manifest(file):
     return cases
 
 
+def _beside(path):
+    """Files that hold the voxels of a header."""
+    if not path.lower().endswith((".mhd", ".nhdr")):
+        return
+    with open(path, "rb") as file:
+        lines = file.read(1 << 16).decode("latin-1").splitlines()
+    for number, line in enumerate(lines):
+        found = re.match(r"(?i)\s*(?:ElementDataFile\s*=|data ?file:)\s*(.*\S)", line)
+        if found:
+            named = found.group(1)
+            names = [re.sub(r"%\d*d.*", "*", named)] + (  # numbered files, or a list of them
+                lines[number + 1:] if named.lower().startswith("list") else [])
+            folder = glob.escape(os.path.dirname(path))
+            for name in filter(None, map(str.strip, names)):
+                pattern = name if "*" in name else glob.escape(name)
+                yield from sorted(glob.glob(os.path.join(folder, pattern)))
+            return
+
+
 def _files(case):
-    """All files of a case."""
+    """All files of a case, with those that a header names."""
     for role in ROLES:
         value = case.get(role)
         for path in [value] if isinstance(value, str) else value or []:
@@ -119,6 +144,8 @@ def _files(case):
                 yield from (os.path.join(path, name) for name in sorted(os.listdir(path)))
             elif isinstance(path, str):
                 yield path
+                if os.path.exists(path):
+                    yield from _beside(path)
 
 
 def _key(case, steps):
@@ -166,8 +193,10 @@ class _Running:
         self.bytes = _bytes_needed(case)
         os.makedirs(folder, exist_ok=True)
         self.result = os.path.join(folder, RESULT)
-        if os.path.exists(self.result):
-            os.remove(self.result)
+        for former in (RESULT, PAGE):  # of other files or steps
+            if os.path.exists(os.path.join(folder, former)):
+                os.remove(os.path.join(folder, former))
+        shutil.rmtree(os.path.join(folder, EXPORTED), ignore_errors=True)
         job = {"case": case, "steps": list(steps), "folder": folder, "key": _key(case, steps)}
         worker = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worker.py")
         path = os.pathsep.join([os.path.dirname(os.path.dirname(worker)),
@@ -177,13 +206,27 @@ class _Running:
                 [_program(), worker, json.dumps(job)], stdout=log, stderr=subprocess.STDOUT,
                 env={**os.environ, "PYTHONPATH": path})
 
-    def ended(self):
-        """What came of it, or None while it runs."""
+    def stop(self):
+        """Ends the process."""
+        self.process.terminate()
+        try:
+            self.process.wait(_PATIENCE_S)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+
+    def ended(self, timeout=None):
+        """What came of it, or None while it runs. After `timeout` (s) it is ended."""
+        seconds = time.monotonic() - self.begun
+        is_late = self.process.poll() is None and timeout is not None and seconds > timeout
+        if is_late:
+            self.stop()
         if self.process.poll() is None:
             return None
-        seconds = time.monotonic() - self.begun
         result = _read(self.result)
-        if result is None:
+        if result is None and is_late:
+            result = {"problem": f"it was ended after {timeout:g} s; see {LOG}", "figures": {}}
+        elif result is None:
             problem = f"the process ended with {self.process.returncode}; see {LOG}"
             result = {"problem": problem, "figures": {}}
         state = "failed" if result["problem"] else "done"
@@ -228,7 +271,7 @@ def _write_table(done, folder):
                              *(one.figures.get(name, "") for name in FIGURES), one.problem))
 
 
-def _write_index(done, folder):
+def _write_index(done, folder, count):
     from .reporting import NOTICE
 
     head = "".join(f"<th>{escape(name)}</th>" for name in ("case", "state", *FIGURES, "problem"))
@@ -245,11 +288,12 @@ def _write_index(done, folder):
         rows.append(f'<tr class="{one.state}"><td>{name}</td><td>{one.state}</td>{cells}'
                     f"<td>{escape(one.problem)}</td></tr>")
     failed = sum(one.state == "failed" for one in done)
+    heading = f"{count} cases" if len(done) == count else f"{len(done)} of {count} cases so far"
     with open(os.path.join(folder, INDEX), "w", encoding="utf-8") as file:
         file.write(
             '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
             f'content="width=device-width, initial-scale=1"><title>Cases</title><style>{_STYLE}'
-            f"</style></head><body><h1>{len(done)} cases, {failed} failed</h1>"
+            f"</style></head><body><h1>{heading}, {failed} failed</h1>"
             f'<p><strong>{NOTICE}</strong></p><div class="wide"><table><thead><tr>{head}</tr>'
             f"</thead><tbody>{''.join(rows)}</tbody></table></div></body></html>\n")
 
@@ -264,12 +308,21 @@ def _told(progress, done, count):
         progress(done, *count)
 
 
-def _run_all(cases, steps, out, most, progress):
-    """Runs what is not done yet. Returns the results in the order of the cases."""
+def _write(done, out, count):
+    """Writes the table and the index page of so many cases."""
+    _write_table(done, out)
+    _write_index(done, out, count)
+
+
+def _run_all(cases, steps, out, most, timeout, progress):
+    """Runs what is not done yet, and writes after each case what is known. Returns the results in
+    the order of the cases."""
     results, waiting, running = {}, [], []
 
     def end(done):
         results[done.name] = done
+        _write([results[case["name"]] for case in cases if case["name"] in results], out,
+               len(cases))
         _told(progress, done, (len(results), len(cases)))
     for case in cases:
         kept = _kept(case, steps, os.path.join(out, case["name"]))
@@ -287,20 +340,19 @@ def _run_all(cases, steps, out, most, progress):
                     end(Done(case["name"], "failed", 0.0, str(error), {},
                              os.path.join(out, case["name"])))
             for one in list(running):
-                done = one.ended()
+                done = one.ended(timeout)
                 if done:
                     running.remove(one)
                     end(done)
             time.sleep(_PAUSE_S if running else 0.0)
     finally:
         for one in running:  # interrupted
-            one.process.terminate()
-            one.process.wait()
+            one.stop()
     return [results[case["name"]] for case in cases]
 
 
 def batch(folder, steps=("Fit", "Judge", "Resect", "Export", "Report"), manifest=None, out=None,
-          processes=None, progress=None):
+          processes=None, progress=None, timeout=None):
     """Run many cases, several at a time, each in a process of its own.
 
     A case that fails does not stop the others: its line says why, and `log.txt` in its folder has
@@ -321,15 +373,19 @@ def batch(folder, steps=("Fit", "Judge", "Resect", "Export", "Report"), manifest
       if the machine has too little free memory for all.
     - `progress`: is called with a `Done`, the number of finished cases and the number of all. The
       default, `None`, prints a line for each.
+    - `timeout`: longest time (s) for a case, above 0. One that takes longer is ended and failed.
+      The default, `None`, sets no limit.
 
     Returns a list of `Done`, in the order of the manifest.
 
-    Raises `ValueError` if the manifest had to be written or is wrong, or a step is unknown, and
-    `FileNotFoundError` if there is no folder.
+    Raises `ValueError` if the manifest had to be written or is wrong, a step is unknown, or the
+    timeout is not above 0, and `FileNotFoundError` if there is no folder.
     """
     unknown = [step for step in steps if step not in BATCH_STEPS]
     if unknown:
         raise ValueError(f"step is {unknown[0]!r}; it must be one of {', '.join(BATCH_STEPS)}")
+    if timeout is not None and not timeout > 0.0:
+        raise ValueError(f"timeout is {timeout}; it must be above 0 s")
     folder = os.path.abspath(os.fspath(folder))
     names = [os.path.join(folder, name) for name in MANIFESTS]
     manifest = manifest or next((name for name in names if os.path.exists(name)), None)
@@ -342,7 +398,6 @@ def batch(folder, steps=("Fit", "Judge", "Resect", "Export", "Report"), manifest
     os.makedirs(out, exist_ok=True)
     most = max(1, int(processes or os.cpu_count() or 1))
     ordered = [step for step in BATCH_STEPS if step in steps]
-    done = _run_all(cases, ordered, out, most, progress)
-    _write_table(done, out)
-    _write_index(done, out)
+    done = _run_all(cases, ordered, out, most, timeout, progress)
+    _write(done, out, len(cases))
     return done

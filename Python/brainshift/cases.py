@@ -8,10 +8,10 @@ import uuid
 from .arguments import positive, vector
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
-from .roles import ROLES, column_sets, ending, open_file, proposed
+from .roles import ROLES, column_sets, ending, landmark_columns, open_file, proposed
 from .steps import Steps
 
-#: Annotations of proxies, which state files keep: `MARK` + role has the name of the case, `SETTING`
+#: Annotations of proxies, which state files keep: `MARK` + role + "." + name of the case, `SETTING`
 #: + name, at the Free-Form Deformation, a setting as JSON, and `OPENED` is at sources that a case
 #: opened itself.
 MARK, SETTING, OPENED = "BrainShift.Case.", "BrainShift.CaseSetting.", "BrainShift.CaseOpened"
@@ -51,7 +51,22 @@ def _marks(source):
     """The roles of a source in cases, and the names of the cases: a list of pairs."""
     proxy = source.SMProxy
     keys = [proxy.GetAnnotationKeyAt(i) for i in range(proxy.GetNumberOfAnnotations())]
-    return [(key[len(MARK):], proxy.GetAnnotation(key)) for key in keys if key.startswith(MARK)]
+    return [tuple(key[len(MARK):].split(".")) for key in keys if key.startswith(MARK)]
+
+
+def _values(source):
+    """What a source was told, to see whether it changed: its identity and its properties."""
+    found = [source.SMProxy.GetGlobalIDAsString()]
+    for name in source.ListProperties():
+        own = source.SMProxy.GetProperty(name)
+        if own is None or own.GetInformationOnly() or name == "Evidence":  # which moves nothing
+            continue
+        value = source.GetPropertyValue(name)
+        if own.IsA("vtkSMProxyProperty"):
+            value = [own.GetProxy(i) and own.GetProxy(i).GetGlobalIDAsString()
+                     for i in range(own.GetNumberOfProxies())]
+        found.append((name, str(value)))
+    return found
 
 
 def _kept(function):
@@ -100,10 +115,37 @@ class _Setting:
         case._wire()
 
 
+class _Result:
+    """A result that a case forgets as soon as what it was found from is another."""
+
+    def __init__(self, default):
+        self.default = default
+
+    def __set_name__(self, owner, name):
+        self.name = name
+
+    def __get__(self, case, kind=None):
+        if case is None:
+            return self
+        state, value = case._results.get(self.name, (None, None))
+        return value if state is not None and state == case._state() else self.default
+
+    def __set__(self, case, value):
+        case._results[self.name] = case._state(), value
+
+
 def _labels(name, values):
     labels = [int(value) for value in values]
     if labels != list(values):
         raise ValueError(f"{name} is {values}; labels are whole numbers")
+    return labels
+
+
+def _brain_label(name, values):
+    labels = _labels(name, values)
+    if len(labels) > 1:
+        raise ValueError(f"{name} is {values}; give one label, or a mask as the brain: the cortex "
+                         "of several labels is not known")
     return labels
 
 
@@ -144,13 +186,16 @@ class Case(Steps):
     - `holds_outside`: whether tissue outside of the brain is held. Default True.
     - `mask_growth`: distance in mm by which the brain grows before displacements fade. Default -1:
       the width of the feather, so all of the brain may move.
-    - `brain_labels`, `tumour_labels`, `cavity_labels`: the labels that count. Default: all above 0.
+    - `brain_labels`, `tumour_labels`, `cavity_labels`: the labels that count; of the brain one at
+      most. Default: all above 0.
     - `landmarks_judge`: True keeps the landmarks out of the fit, so that they judge it. Default
       False.
 
     Attributes to read: `bent`, the Free-Form Deformation; `comparison`, a Compare Volumes;
     `trace_distance` and `contact_distance`, Trace Distances; each is `None` while its roles are
-    missing. `resection` is the result of the last `resect`, and `proposal` that of `from_folder`.
+    missing. `proposal` is the result of `from_folder`, and `resection` that of the last `resect`.
+    It is `None` again, and what Judge and Export found is forgotten, once a role, a setting or the
+    deformation is another.
 
     Raises `TypeError` for an unknown role, and `ValueError` or `FileNotFoundError` with the reason
     if a file cannot be read. The role then stays as it was.
@@ -161,10 +206,11 @@ class Case(Steps):
     surface_level = _Setting(None, _level)
     holds_outside = _Setting(True, lambda name, value: bool(value))
     mask_growth = _Setting(-1.0, lambda name, value: float(value))
-    brain_labels = _Setting([], _labels)
+    brain_labels = _Setting([], _brain_label)
     tumour_labels = _Setting([], _labels)
     cavity_labels = _Setting([], _labels)
     landmarks_judge = _Setting(False, lambda name, value: bool(value))
+    resection, judged, exported = _Result(None), _Result(None), _Result(())
 
     def __init__(self, **roles):
         unknown = sorted(set(roles) - set(ROLES))
@@ -180,9 +226,7 @@ class Case(Steps):
         self._settings = {}  # until there is a deformation to keep them
         self._loose = []  # sources of former roles
         self.proposal = []
-        self.resection = None
-        self.judged = None
-        self.exported = []
+        self._results = {}  # by name: the state that each belongs to, and the result
 
     @classmethod
     def of(cls, source):
@@ -190,20 +234,24 @@ class Case(Steps):
 
         - `source`: the source of any role, or the Free-Form Deformation.
 
-        Returns a `Case`. Raises `ValueError` if the source belongs to no case.
+        Returns a `Case`, the first of several. Raises `ValueError` if the source belongs to none.
         """
         marks = _marks(source)
         if not marks:
             raise ValueError("the source belongs to no case")
+        return cls._named(marks[0][1])
+
+    @classmethod
+    def _named(cls, name):
         case = cls.__new__(cls)
-        case._begin(marks[0][1])
+        case._begin(name)
         return case
 
     @classmethod
     def all(cls):
         """All cases of the session, a list."""
-        names = {name: source for source in _proxies() for _, name in _marks(source)}
-        return [cls.of(source) for source in names.values()]
+        names = {name: None for source in _proxies() for _, name in _marks(source)}
+        return [cls._named(name) for name in names]
 
     @classmethod
     def from_folder(cls, folder):
@@ -242,10 +290,28 @@ class Case(Steps):
     # Parts ------------------------------------------------------------------------------------
 
     def part(self, role):
-        """The source with a role, or a made part of the pipeline; None if there is none."""
-        key = MARK + role
-        return next((source for source in _proxies() if source.SMProxy.HasAnnotation(key)
-                     and source.SMProxy.GetAnnotation(key) == self._name), None)
+        """The source with a role, or a made part of the pipeline; None if there is none.
+
+        Raises `ValueError` if a state of the case was loaded beside it.
+        """
+        key = self._key(role)
+        found = [source for source in _proxies() if source.SMProxy.HasAnnotation(key)]
+        if len(found) > 1 and role != "fit":  # a refinement may have replaced a fit
+            raise ValueError("the session has this case twice, for a state of it was loaded beside "
+                             "it: delete one, or reset the session before a state is loaded")
+        return found[0] if found else None
+
+    def _key(self, role):
+        return f"{MARK}{role}.{self._name}"
+
+    def _state(self):
+        """What results depend on: roles, settings and the deformation as they are."""
+        parts = [self.part(role) for role in (*ROLES, "measured", "bent", "comparison")]
+        bent = self.bent
+        parts.append(bent.Lattice if bent else None)
+        settings = [getattr(self, name) for name, kind in vars(Case).items()
+                    if isinstance(kind, _Setting)]
+        return [_values(part) for part in parts if part], settings, self.opening_ball()
 
     bent = property(lambda self: self.part("bent"))
     comparison = property(lambda self: self.part("comparison"))
@@ -306,7 +372,8 @@ class Case(Steps):
             sets = column_sets(path) if ending(path) in (".csv", ".tsv") else []
             if len(sets) != 2:
                 return _opened(path), None
-            return tuple(_opened(path, PositionColumns=columns) for columns in sets)
+            return tuple(_opened(path, PositionColumns=columns)
+                         for columns in landmark_columns(path))
         rest, measured = value
         return tuple(_opened(one) if isinstance(one, (str, os.PathLike)) else one
                      for one in (rest, measured))
@@ -315,7 +382,7 @@ class Case(Steps):
         """Takes a role from its source, unless that is the one to keep."""
         former = self.part(role)
         if former is not None and (keep is None or former.SMProxy is not keep.SMProxy):
-            former.SMProxy.RemoveAnnotation(MARK + role)
+            former.SMProxy.RemoveAnnotation(self._key(role))
             if former.SMProxy.HasAnnotation(OPENED) and not _marks(former):
                 self._loose.append(former)
 
@@ -325,7 +392,7 @@ class Case(Steps):
 
         self._forget(role, keep=source)
         if source is not None:
-            source.SMProxy.SetAnnotation(MARK + role, self._name)
+            source.SMProxy.SetAnnotation(self._key(role), "1")
             if source.SMProxy.HasAnnotation(OPENED):
                 simple.RenameSource(name or _stem(source), source)
 
@@ -352,7 +419,7 @@ class Case(Steps):
             return None
         if source is None:
             source = getattr(simple, kind)(registrationName=name, **inputs)
-            source.SMProxy.SetAnnotation(MARK + part, self._name)
+            source.SMProxy.SetAnnotation(self._key(part), "1")
             return source
         self._set(source, inputs)
         return source
@@ -368,10 +435,11 @@ class Case(Steps):
         bent = self._made("bent", "FreeFormDeformation", f"{name} bent", Input=volume)
         if bent is not None:
             for key, value in self._settings.items():
-                bent.SMProxy.SetAnnotation(SETTING + key, json.dumps(value))
+                if not bent.SMProxy.HasAnnotation(SETTING + key):  # another Case may have set it
+                    bent.SMProxy.SetAnnotation(SETTING + key, json.dumps(value))
             self._limit(bent)
             fit = self.fit_source()
-            if fit is not None and fit.SMProxy.HasAnnotation(MARK + "fit"):
+            if fit is not None and fit.SMProxy.HasAnnotation(self._key("fit")):
                 self._set(fit, {"Input": volume, **_shared(bent), "Mask": bent.Mask,
                                 **self._measurements()})
             self._distances(bent)
@@ -487,7 +555,7 @@ class Case(Steps):
         if problem:
             simple.Delete(source)
             raise ValueError(problem)
-        source.SMProxy.SetAnnotation(MARK + "fit", self._name)
+        source.SMProxy.SetAnnotation(self._key("fit"), "1")
         bent.Lattice = source
         forget_former(former)
         return Fit(source)
@@ -540,7 +608,7 @@ class Case(Steps):
             save_volume(baked, f"{name}_bent.nii.gz")
         finally:
             simple.Delete(baked)
-        save_field(self.bent, f"{name}_field.nii.gz")
+        save_field(self.bent, f"{name}_field.nii.gz", world=world_axes(self.volume) or "RAS")
         files = [f"{name}_bent.nii.gz", f"{name}_field.nii.gz"]
         if self.resection is not None:
             for frame in ("rest", "deformed"):

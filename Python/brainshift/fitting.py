@@ -42,6 +42,19 @@ def _point_axes(*lists):
     return {"PointAxes": "RAS"} if is_read else {}
 
 
+def rigid_of(lattice):
+    """The rigid motion of a fit that is not in its lattice, a 4 x 4 matrix, or None without."""
+    import numpy
+
+    if not is_kind(lattice, "FitDeformation"):
+        return None
+    lattice.SMProxy.UpdatePropertyInformation()
+    rigid = numpy.array(numbers(lattice.SMProxy, "Rigid"), float)
+    if rigid.size != 16 or numpy.allclose(rigid.reshape(4, 4), numpy.eye(4), rtol=0, atol=1e-3):
+        return None
+    return rigid.reshape(4, 4)
+
+
 def _pulls(values):
     """`values` as an N x 2 x 3 array: from, to."""
     import numpy

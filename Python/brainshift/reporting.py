@@ -12,6 +12,7 @@ from .drawing import png
 from .figures import _strength_kept, _versions
 from .files import figures_of
 from .fitting import Fit
+from .maps import rest_from_deformed
 from .roles import ROLES, ending
 
 NOTICE = "Research software, not for clinical use."
@@ -110,6 +111,16 @@ def _distances(case):
     return rows
 
 
+def left_out_mean(fit):
+    """Mean leave-one-out error (mm) of the landmarks of a Fit; None without them or a Fit."""
+    import numpy
+
+    if fit is None or not fit.filter.RestLandmarks:
+        return None
+    known = fit.leave_one_out[numpy.isfinite(fit.leave_one_out)]
+    return float(known.mean()) if len(known) else None
+
+
 def _fit_rows(case):
     """Rows of the fit: figure, value, unit, meaning; and the fit or None."""
     import numpy
@@ -130,7 +141,7 @@ def _fit_rows(case):
     if len(left_out):
         rows.append(("Leave-one-out error, mean", float(left_out.mean()), "mm",
                      "Error at a landmark that the fit did not use, each in turn."))
-    places = [list(scenes.focus_of(case))]
+    places = rest_from_deformed(case.bent, [list(scenes.focus_of(case))])
     deviation = float(fit.deviation(places)[0])
     rows += [("Deviation in the slices' middle", deviation, "mm",
               "Uncertainty of the tissue's position along an axis, one standard deviation; within "
@@ -319,8 +330,12 @@ def _tiles(case, fit, distances):
                       f"of {resection.before:.1f} ml" + (
                           f"; {100 * resection.level:.0f} % interval {ends[0]:.1f} to "
                           f"{ends[1]:.1f} ml" if ends else "; no interval")))
+    left_out = left_out_mean(fit)
     for name, before, after, unit, _ in distances:
-        if name.endswith(", RMS") or name == "Landmarks, in the mean":
+        if name == "Landmarks, in the mean" and left_out is not None:
+            found.append(("Landmarks left out, in the mean", f"{left_out:.2f} {unit}",
+                          f"{before:.2f} {unit} without the deformation"))
+        elif name.endswith(", RMS") or name == "Landmarks, in the mean":
             found.append((name, f"{after:.2f} {unit}", f"{before:.2f} {unit} without the "
                           "deformation"))
     found.append(("Largest displacement", f"{float(case.bent.MaximumDisplacement):.1f} mm",
@@ -374,7 +389,9 @@ def _sections(case, names):
     yield "", _tiles(case, fit, distances) + "".join(
         f'<p class="warning">{escape(text)}</p>' for text in _warnings(case, fit))
     yield "Steps", _table(("Step", "State", "Found or missing"), [
-        (step.name, step.state, step.found or step.lacks) for step in case.steps])
+        (step.name, step.state, f"{len(case.exported)} files"
+         if step.name == "Export" and case.exported and not names else step.found or step.lacks)
+        for step in case.steps])
     yield from _pictures(case, fit)
     if case.resection is not None:
         yield "Resection", _values(_resection_rows(case.resection))

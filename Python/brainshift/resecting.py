@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How much of a tumour is left after a resection that moved the brain."""
 
-from .fitting import Fit, is_kind
+from .fitting import Fit, is_kind, rigid_of
 from .images import Labels, fetched, interpolated
 from .maps import deformed_from_rest, rest_from_deformed
 
@@ -288,13 +288,19 @@ def resect(filter, tumour, cavity, tumour_labels=(), cavity_labels=(), compare=N
 
     Returns a `Resection`. Without a fit it has no interval and says why.
 
-    Raises `ValueError` if an argument is out of its range, an input is no image of labels, or no
-    voxel has the labels.
+    Raises `ValueError` if an argument is out of its range, an input is no image of labels, no voxel
+    has the labels, or the fit has a rigid motion: one to landmarks alone keeps it apart from the
+    deformation, so the tumour and the cavity would not lie in one frame.
     """
     if int(fields) < 50:
         raise ValueError(f"fields is {fields}; it must be at least 50")
     if not 0.0 < level < 1.0:
         raise ValueError(f"level is {level}; it must be above 0 and below 1")
+    filter.UpdatePipeline()
+    if rigid_of(filter.Lattice) is not None:
+        raise ValueError("the fit to landmarks has a rigid motion that is not in the deformation, "
+                         "so the tumour would not be compared with the cavity where it is: align "
+                         "the reference, its cavity and the measured landmarks with the volume")
     before = Labels(fetched(tumour), tumour_labels)
     removed = Labels(fetched(cavity), cavity_labels)
     if compare is not None:

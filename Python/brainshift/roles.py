@@ -31,6 +31,10 @@ _VOLUME_WORDS = (
                   "reference followup"),
     ("volume", "pre preop preoperative before mr mri flair ct head anat mprage"))
 
+#: Beginnings of words of columns: of landmarks at rest, and of measured ones.
+_REST_WORDS = ("rest", "pre", "before", "fixed")
+_MEASURED_WORDS = ("meas", "post", "intra", "after", "moving")
+
 #: Files beside the data that have no role.
 _ASIDE = ("coordsystem", "dataset_description", "participants", "manifest", "channels", "events")
 
@@ -65,7 +69,12 @@ def _by_words(path, table):
 
 
 def column_sets(path):
-    """The sets of three columns of a table that hold positions: a list of lists of names.
+    """The sets of three columns of a table that hold positions: a list of lists of names."""
+    return [columns for _, columns in _sets_by_axes(path)]
+
+
+def _sets_by_axes(path):
+    """The sets of columns of a table that hold positions: pairs of axes and three names.
 
     The names of a set differ in one letter, x, y, z or r, a, s or l, p, s, at their start or end
     or as a word of their own.
@@ -80,7 +89,33 @@ def column_sets(path):
                 for rest in {re.sub(rf"(?i)(^|[_ .:-]){axis}([_ .:-]|$)", r"\1*\2", name),
                              re.sub(rf"(?i)^{axis}(?=\d*$)", "*", name)} - {name}:
                     sets.setdefault((axes, rest.lower()), [None] * 3)[where] = name
-    return [found for found in sets.values() if all(found)]
+    return [(axes, found) for (axes, _), found in sets.items() if all(found)]
+
+
+def _rank(columns):
+    """-1 if the names of columns say that they are at rest, 1 if measured, 0 if neither or both."""
+    words = [word.lower() for name in columns
+             for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+", name)]
+    numbers = {re.sub(r"\D", "", name) for name in columns}
+    is_rest = any(word.startswith(_REST_WORDS) for word in words) or numbers == {"1"}
+    is_measured = any(word.startswith(_MEASURED_WORDS) for word in words) or numbers == {"2"}
+    return int(is_measured) - int(is_rest)
+
+
+def landmark_columns(path):
+    """The two `column_sets` of a table of landmarks: at rest, measured, as their names say.
+
+    Names that say neither are taken in the order of the table. Raises `ValueError` if both say the
+    same, or neither says anything and they have other axes: then their order says nothing.
+    """
+    (axes, _), (others, _) = known = _sets_by_axes(path)
+    sets = [columns for _, columns in known]
+    first, second = map(_rank, sets)
+    if first == second and (first or axes != others):
+        names = " or ".join(", ".join(columns) for columns in sets)
+        raise ValueError(f"{os.path.basename(path)} does not say whether {names} are the landmarks "
+                         "at rest: call their columns x_rest, ... and x_measured, ...")
+    return sets if first <= second else sets[::-1]
 
 
 def _points_role(path):
@@ -148,6 +183,10 @@ def _role_of(path):
     if ending(path) in POINTS:
         return _points_role(path)
     role, reason = _by_words(path, _VOLUME_WORDS)
+    later = dict(_VOLUME_WORDS)["reference"].split()
+    word = next((word for word in _words(path) if word in later), None)
+    if role in ("tumour", "brain") and word:  # these belong to the volume before surgery
+        return None, f"{reason} and the word {word}, so it may be of the reference"
     return (role, reason) if role else _labels_role(path)
 
 

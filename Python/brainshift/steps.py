@@ -69,15 +69,27 @@ class Steps:
         return "a brain, or a surface_level", ""
 
     def landmark_errors(self):
-        """Errors of the landmarks now, mm; None without pairs or if none match."""
-        from .judging import tre
+        """Errors of the landmarks now, mm; None without pairs or if none match.
+
+        The rigid motion of a fit to landmarks alone counts as part of the deformation.
+        """
+        from .fitting import rigid_of
+        from .judging import TargetErrors, tre
         from .points import read_from
 
         rest, measured = self.landmarks or (None, None)
         if not (rest and measured):
             return None
+        rest, measured = read_from(rest), read_from(measured)
         try:
-            return tre(self.bent, read_from(rest), read_from(measured))
+            found = tre(self.bent, rest, measured)
+            rigid = rigid_of(self.bent.Lattice)
+            if rigid is None:
+                return found
+            rotation, shift = rigid[:3, :3], rigid[:3, 3]
+            moved = measured._replace(positions=(measured.positions - shift) @ rotation)
+            within = tre(self.bent, rest, moved)  # the errors are as long in this frame
+            return TargetErrors(within.errors, found.before, found.names, found.unpaired)
         except ValueError:
             return None
 

@@ -19,6 +19,8 @@ def load_plugin():
 def figures_of_case(case):
     """The numbers of a case for the table of the batch."""
     from brainshift.files import figures_of
+    from brainshift.fitting import Fit
+    from brainshift.reporting import left_out_mean
 
     bent = figures_of(case.bent)
     found = {"largest displacement (mm)": float(bent.MaximumDisplacement),
@@ -26,8 +28,12 @@ def figures_of_case(case):
     measure = case.trace_distance or case.contact_distance
     if measure is not None:
         found["traced points RMS (mm)"] = float(figures_of(measure).RMS)
-    errors = case.landmark_errors()
-    if errors is not None:
+    errors, fit = case.landmark_errors(), case.fit_source()
+    if fit is not None and fit.RestLandmarks:  # errors at these are no accuracy
+        left_out = left_out_mean(Fit(fit))
+        if left_out is not None:
+            found["landmarks left out, mean (mm)"] = left_out
+    elif errors is not None:
         found["landmarks mean (mm)"] = errors.mean
     if case.resection is not None:
         found.update({"tumour before (ml)": case.resection.before,
@@ -40,7 +46,7 @@ def figures_of_case(case):
 def run(job):
     """Does the steps of a job and returns its figures."""
     import brainshift
-    from brainshift.batching import PAGE
+    from brainshift.batching import EXPORTED, PAGE
 
     case = brainshift.Case(**{role: path for role, path in job["case"].items() if role != "name"})
     for step in job["steps"]:
@@ -50,9 +56,9 @@ def run(job):
             if case.tumour is not None and case.cavity is not None:
                 case.resect()
         elif step == "Report":
-            brainshift.report(case, os.path.join(job["folder"], PAGE), title=job["case"]["name"])
+            brainshift.report(case, os.path.join(job["folder"], PAGE))
         elif step == "Export":
-            case.run(step, folder=os.path.join(job["folder"], "files"))
+            case.run(step, folder=os.path.join(job["folder"], EXPORTED))
         elif step in ("Judge", "Refine") and lacking[step]:
             print(f"left out: it lacks {lacking[step]}", flush=True)
         else:

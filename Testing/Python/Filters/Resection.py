@@ -160,6 +160,21 @@ def test_without_a_bend_the_volumes_are_those_of_the_shapes():
     assert_says(found.reason, "no interval", "fit")
 
 
+def test_a_rigid_motion_beside_the_deformation_is_refused():
+    bent = bent_brain()
+    rest = MIDDLE + numpy.random.default_rng(1).uniform(-30.0, 30.0, (8, 3))
+    fit = brainshift.fit(bent, rest=rest, measured=rest + (9.0, 0.0, 0.0))
+    assert abs(fit.rigid[0, 3]) > 5.0, fit.rigid
+    positions, placed = grid(MIDDLE - 20.0, MIDDLE + 20.0, 2.0)
+    source = labels(Ellipsoid(MIDDLE, (12.0, 10.0, 9.0)).holds, positions, placed)
+    try:
+        brainshift.resect(bent, source, source, fields=50)
+    except ValueError as error:
+        assert_says(str(error), "rigid motion", "align")
+    else:
+        raise AssertionError("a rigid motion is ignored")
+
+
 def test_twenty_cases():
     errors, hits, widths, moved = [], [], [], []
     for seed in range(CASES):

@@ -5,10 +5,13 @@
 import os
 import shutil
 
-from brainshift_testing import assert_says, load_plugin, run_tests, scratch
+from unittest import mock
+
+from brainshift_testing import assert_says, ball, load_plugin, run_tests, scratch, volume
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift.points import read_from  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 from patient_testing import TOP, cap, make_patient, table  # noqa: E402
 
@@ -46,7 +49,8 @@ def test_a_folder_is_sorted_with_reasons_and_nothing_is_opened():
 
 
 def test_a_name_that_says_nothing_is_sorted_by_content():
-    os.makedirs(scratch("plain"), exist_ok=True)
+    shutil.rmtree(scratch("plain"), ignore_errors=True)
+    os.makedirs(scratch("plain"))
     for old, new in (("sub-1_T1w", "a"), ("sub-1_postop", "b"), ("sub-1_brainmask", "c"),
                      ("sub-1_Tumor", "d"), ("cavity", "e")):
         shutil.copy(path(f"{old}.nii.gz"), scratch(f"plain/{new}.nii.gz"))
@@ -54,6 +58,10 @@ def test_a_name_that_says_nothing_is_sorted_by_content():
     assert [each.role for each in proposal] == ["volume", "reference", "brain", "tumour", None]
     assert_says(proposal[4].reason, "d.nii.gz", "tumour already")
     assert_says(proposal[2].reason, "ml")
+    shutil.copy(path("sub-1_Tumor.nii.gz"), scratch("plain/0_postop_tumor.nii.gz"))
+    proposal = brainshift.Case.from_folder(scratch("plain")).proposal
+    assert [each.role for each in proposal[:2]] == [None, "volume"], proposal
+    assert_says(proposal[0].reason, "tumor", "postop")
 
 
 def test_roles_in_any_order_make_one_pipeline():
@@ -166,6 +174,82 @@ def test_the_resection_of_a_case_is_written():
     assert image.GetScalarRange() == (0.0, 2.0)
 
 
+def test_results_are_forgotten_when_the_case_changes():
+    clear()
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),
+                           tumour=path("sub-1_Tumor.nii.gz"), cavity=path("cavity.nii.gz"))
+
+    def found():
+        return case.resection is not None, case.judged is not None, bool(case.exported)
+
+    def filled():
+        case.resection, case.judged, case.exported = object(), "a line", ["a.nii.gz"]
+        assert found() == (True, True, True)
+    filled()
+    case.bent.UpdatePipeline()
+    assert found() == (True, True, True), "nothing changed"
+    stroke = brainshift.soft((80, 80, 80), (0, 5, 0), 20)
+    for number, change in enumerate((
+            lambda: setattr(case.bent, "Strokes", stroke),
+            lambda: setattr(case.bent, "Strength", 0.5),
+            lambda: setattr(case, "tumour_labels", [1]),
+            lambda: setattr(case, "cavity", path("cavity.nii.gz")),
+            lambda: setattr(case, "traces", path("pointer.csv")), case.fit)):
+        filled()
+        change()
+        assert found() == (False, False, False), number
+
+
+def test_columns_of_landmarks_are_taken_by_their_names():
+    clear()
+    rest, measured = [[1.0, 2.0, 3.0]], [[4.0, 5.0, 6.0]]
+    for header, is_turned in (
+            ("x_measured y_measured z_measured x_rest y_rest z_rest", True),
+            ("post_x post_y post_z pre_x pre_y pre_z", True),
+            ("x2 y2 z2 x1 y1 z1", True), ("r a s x_rest y_rest z_rest", True),
+            ("r a s x_meas y_meas z_meas", False), ("x_a y_a z_a x_b y_b z_b", False)):
+        first, second = (measured, rest) if is_turned else (rest, measured)
+        table(path("pairs.csv"), header.split(), [first[0] + second[0]])
+        case = brainshift.Case(landmarks=path("pairs.csv"))
+        places = [read_from(source).positions.tolist() for source in case.landmarks]
+        assert places == [rest, measured], (header, places)
+        simple.ResetSession()
+        load_plugin()
+    for header in ("r a s x y z", "x y z r a s", "x_pre y_pre z_pre x_rest y_rest z_rest"):
+        table(path("pairs.csv"), header.split(), [rest[0] + measured[0]])
+        refused(ValueError, ["pairs.csv", "at rest"],
+                lambda: brainshift.Case(landmarks=path("pairs.csv")))
+    os.remove(path("pairs.csv"))
+
+
+def test_two_cases_may_share_sources():
+    clear()
+    first = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"))
+    first.bent.Strength = 0.5
+    second = brainshift.Case(volume=first.volume, brain=first.brain)
+    assert first.bent is not None and first.bent != second.bent
+    second.volume = None
+    first.mask_growth = 2.0
+    assert first.bent.Strength == 0.5 and first.bent.MaskGrowth == 2.0
+    again = brainshift.Case.of(first.bent)
+    again.mask_growth = 3.0
+    first.holds_outside = False
+    assert first.mask_growth == again.mask_growth == 3.0 == first.bent.MaskGrowth
+    simple.SaveState(scratch("beside.pvsm"))
+    simple.LoadState(scratch("beside.pvsm"))
+    refused(ValueError, ["twice"], lambda: first.bent)
+
+
+def test_an_export_keeps_the_axes_of_the_volume():
+    clear()
+    case = brainshift.Case(volume=volume(ball(9, 3.0)))
+    told = []
+    with mock.patch("brainshift.views.world_axes", lambda _: "LPS"), mock.patch(
+            "brainshift.files.save_field", lambda *_, **named: told.append(named)):
+        case.export(scratch("lps"))
+    assert told == [{"world": "LPS"}], told
+
+
 def refused(kind, words, function):
     try:
         function()
@@ -183,6 +267,9 @@ def test_errors_name_what_is_wrong():
     refused(ValueError, ["Fit lacks"], lambda: case.run("Fit"))
     refused(ValueError, ["Paint", "Export"], lambda: case.run("Paint"))
     refused(ValueError, ["lacks a tumour"], case.resect)
+    refused(ValueError, ["brain_labels", "one label"],
+            lambda: setattr(case, "brain_labels", [1, 2]))
+    assert case.brain_labels == []
     refused(ValueError, ["belongs to no case"],
             lambda: brainshift.Case.of(simple.Sphere()))
 

@@ -12,6 +12,7 @@ from brainshift_testing import assert_says, load_plugin, run_tests, scratch
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift import reporting, scenes  # noqa: E402
 from brainshift.drawing import ORANGE  # noqa: E402
 from paraview import simple  # noqa: E402
 from patient_testing import TOP, make_patient  # noqa: E402
@@ -35,6 +36,7 @@ def fitted():
     case.run("Fit")
     case.run("Judge")
     case.resect(fields=50)
+    case.run("Export", folder=scratch("exported"))
     return case
 
 
@@ -93,6 +95,11 @@ def test_one_page_has_all_of_it():
         assert name not in page, "a name of a file may name the patient"
     words = re.sub(r"data:[^\"]+", "", page)
     assert "Doe" not in words and FOLDER not in words
+    assert "sub-1" not in words, "the names of exported files have that of the volume"
+    assert_says(words, "4 files")
+    place = brainshift.rest_from_deformed(case.bent, [scenes.focus_of(case)])
+    deviation = brainshift.Fit(case.fit_source()).deviation(place)[0]
+    assert_says(words, f">{deviation:.2f} mm<")
     named = brainshift.report(case, scratch("names.html"), names=True)
     assert_says(text_of(named), *ROLES.values())
 
@@ -120,6 +127,10 @@ def test_a_case_with_less_has_a_shorter_page():
     Balanced().feed(page)
     assert "Resection" not in page and "Evidence" not in page
     assert len(pictures(page)) == 8
+    case.landmarks = f"{FOLDER}/targets.csv"
+    fit = case.fit()
+    tiles = "".join(reporting._tiles(case, fit, reporting._distances(case)))
+    assert_says(tiles, "Landmarks left out, in the mean", f"{reporting.left_out_mean(fit):.2f} mm")
     try:
         brainshift.report(brainshift.Case(), scratch("none.html"))
     except ValueError as error:
