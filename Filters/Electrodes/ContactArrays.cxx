@@ -238,6 +238,18 @@ private:
     {
       return false;
     }
+    this->doubtOtherShapes(ranked);
+    const ContactOrder order = orderBy(numbers, best.numbering);
+    this->take(order);
+    this->nameMissing(best.numbering);
+    this->doubtOutside(order, "has contacts outside of its shape: ");
+    this->doubtRows(order, best.numbering);
+    return true;
+  }
+
+  void doubtOtherShapes(const std::vector<RankedNumbering>& ranked)
+  {
+    const RankedNumbering& best = ranked.front();
     for (const RankedNumbering& other : ranked)
     {
       const bool isOther = other.numbering.columns != best.numbering.columns &&
@@ -248,12 +260,46 @@ private:
           std::to_string(other.numbering.columns) + " contacts as well as " +
           std::to_string(best.numbering.rows) + " x " + std::to_string(best.numbering.columns) +
           "; give its shape");
-        break;
+        return;
       }
     }
-    this->take(orderBy(numbers, best.numbering));
-    this->nameMissing(best.numbering);
-    return true;
+  }
+
+  // Names contacts that have no place.
+  void doubtOutside(const ContactOrder& order, const std::string& words)
+  {
+    std::vector<std::string> outside;
+    for (std::size_t k = 0; k < order.places.size(); ++k)
+    {
+      if (!order.places[k])
+      {
+        outside.push_back(this->nameOf(this->Kept[k]));
+      }
+    }
+    if (!outside.empty())
+    {
+      this->doubt(words + joined(outside));
+    }
+  }
+
+  // Rows of a grid that the numbers alone put before or after the contacts. Those after a grid from
+  // 1 on are in a shape that was given.
+  void doubtRows(const ContactOrder& order, const Numbering& numbering)
+  {
+    const glm::ivec2 empty = emptyRows(order);
+    if (order.rows > 1 && (empty.x > 0 || (empty.y > 0 && numbering.first != 1)))
+    {
+      this->doubt(std::string("has no contact in its ") + (empty.x > 0 ? "first" : "last") +
+        " row; check its shape and labels");
+    }
+    const int before = numbering.first - 1;
+    const bool isGiven = this->Hint && this->Hint->rows * this->Hint->columns > 0;
+    if (!isGiven && order.rows > 1 && before > 0 && before % order.columns == 0 &&
+      before < order.rows * order.columns)
+    {
+      this->doubt("starts at " + this->Array.labels.front() +
+        "; if rows before that are missing, give its shape");
+    }
   }
 
   void findByPositions()
@@ -275,18 +321,7 @@ private:
       this->doubt("has labels that do not follow its shape; its order is that of the positions");
     }
     this->take(order);
-    std::vector<std::string> outside;
-    for (std::size_t k = 0; k < order.places.size(); ++k)
-    {
-      if (!order.places[k])
-      {
-        outside.push_back(this->nameOf(this->Kept[k]));
-      }
-    }
-    if (!outside.empty())
-    {
-      this->doubt("has contacts that belong to no row and column: " + joined(outside));
-    }
+    this->doubtOutside(order, "has contacts that belong to no row and column: ");
     if (this->Hint && this->Hint->rows * this->Hint->columns > 0 &&
       std::minmax(order.rows, order.columns) != std::minmax(this->Hint->rows, this->Hint->columns))
     {
