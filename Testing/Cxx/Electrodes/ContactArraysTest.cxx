@@ -316,3 +316,60 @@ TEST(ContactArrays, DoubtARowThatHasNoContacts)
   EXPECT_FALSE(array.contacts.front());
   EXPECT_TRUE(says(array, "no contact in its first row"));
 }
+
+TEST(ContactArrays, DoubtRowsAndColumnsThatAreNotAsFarApart)
+{
+  std::mt19937 random(16);
+  std::normal_distribution<double> noise(0.0, NoiseMm);
+  std::vector<Contact> contacts;
+  for (int k = 0; k < 32; ++k)
+  {
+    contacts.push_back({ glm::dvec3(10.0 * (k % 8) + noise(random), 8.0 * (k / 8) + noise(random),
+                           0.3 * (k % 8) * (k % 8)),
+      numbered("G", k + 1), "" });
+  }
+  const ContactArray array = recogniseArrays(contacts).front();
+  EXPECT_EQ(array.columns, 8);
+  EXPECT_TRUE(says(array, "mm apart along its rows"));
+  // A sheet that is stretched by a sag under it is none of these.
+  for (const unsigned seed : { 1u, 2u, 3u, 4u })
+  {
+    const ContactArray sagged =
+      recogniseArrays(gridOfShape({ 8, 8, 10.0, true }, "G", seed)).front();
+    EXPECT_FALSE(says(sagged, "mm apart along its rows")) << seed;
+  }
+}
+
+TEST(ContactArrays, NamePlacesWithoutLabels)
+{
+  std::vector<Contact> contacts = gridOfShape({ 4, 8, 10.0 }, "", 17);
+  for (Contact& contact : contacts)
+  {
+    contact.label.clear();
+  }
+  std::vector<Contact> aside = contacts;
+  for (Contact& contact : aside)
+  {
+    contact.position += glm::dvec3(0.0, 200.0, 0.0);
+  }
+  contacts.erase(contacts.begin() + 18);
+  contacts.erase(contacts.begin() + 9);
+  const std::vector<std::string> alone = recogniseArrays(contacts).front().labels;
+  EXPECT_EQ(std::count(alone.begin(), alone.end(), ""), 30);
+  const auto named = std::find_if(
+    alone.begin(), alone.end(), [](const std::string& label) { return !label.empty(); });
+  ASSERT_NE(named, alone.end());
+  EXPECT_EQ(*named,
+    "r" + std::to_string((named - alone.begin()) / 8 + 1) + "c" +
+      std::to_string((named - alone.begin()) % 8 + 1));
+  contacts.insert(contacts.end(), aside.begin() + 1, aside.end() - 1);
+  const std::vector<ContactArray> both = recogniseArrays(contacts);
+  ASSERT_EQ(both.size(), 2u);
+  for (const ContactArray& array : both)
+  {
+    const std::string number = &array == both.data() ? "1-r" : "2-r";
+    const auto missing = std::count_if(array.labels.begin(), array.labels.end(),
+      [&](const std::string& label) { return label.compare(0, 3, number) == 0; });
+    EXPECT_EQ(missing, 2);
+  }
+}
