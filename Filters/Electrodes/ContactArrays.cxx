@@ -88,10 +88,10 @@ ContactOrder orderOf(const ContactArray& array, std::size_t count)
   order.places.resize(count);
   for (std::size_t k = 0; k < array.contacts.size(); ++k)
   {
-    if (array.contacts[k])
+    if (const std::optional<std::size_t>& contact = array.contacts[k])
     {
       const int index = static_cast<int>(k);
-      order.places[*array.contacts[k]] = glm::ivec2(index / array.columns, index % array.columns);
+      order.places[*contact] = glm::ivec2(index / array.columns, index % array.columns);
     }
   }
   return order;
@@ -185,10 +185,9 @@ private:
     this->Array.labels.assign(count, "");
     for (std::size_t k = 0; k < order.places.size(); ++k)
     {
-      if (order.places[k])
+      if (const std::optional<glm::ivec2>& place = order.places[k])
       {
-        const std::size_t at =
-          static_cast<std::size_t>(order.places[k]->x) * order.columns + order.places[k]->y;
+        const std::size_t at = static_cast<std::size_t>(place->x) * order.columns + place->y;
         this->Array.contacts[at] = this->Kept[k];
         this->Array.labels[at] = this->Contacts[this->Kept[k]].label;
       }

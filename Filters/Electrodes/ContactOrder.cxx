@@ -30,9 +30,9 @@ std::map<Cell, std::size_t> cellsOf(const ContactOrder& order)
   std::map<Cell, std::size_t> cells;
   for (std::size_t i = 0; i < order.places.size(); ++i)
   {
-    if (order.places[i])
+    if (const std::optional<glm::ivec2>& place = order.places[i])
     {
-      cells.emplace(Cell{ order.places[i]->x, order.places[i]->y }, i);
+      cells.emplace(Cell{ place->x, place->y }, i);
     }
   }
   return cells;
@@ -61,16 +61,18 @@ double strangers(const std::vector<glm::dvec3>& positions, const ContactOrder& o
   int count = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    if (!order.places[i])
+    const std::optional<glm::ivec2>& place = order.places[i];
+    if (!place)
     {
       continue;
     }
     ++count;
     for (std::size_t j = 0; j < positions.size(); ++j)
     {
-      if (order.places[j] && glm::distance(positions[i], positions[j]) < StrangerFactor * pitch)
+      const std::optional<glm::ivec2>& other = order.places[j];
+      if (other && glm::distance(positions[i], positions[j]) < StrangerFactor * pitch)
       {
-        const glm::ivec2 apart = glm::abs(*order.places[i] - *order.places[j]);
+        const glm::ivec2 apart = glm::abs(*place - *other);
         if (std::max(apart.x, apart.y) > 1)
         {
           ++found;
