@@ -66,8 +66,9 @@ struct RankedNumbering
 };
 
 /**
- * All numberings that a sheet of these numbers may have, the best one first. It may start at 1 or at
- * a higher number, as an electrode whose first rows are cut off, or that goes on after another one.
+ * All numberings that a sheet of these numbers may have, the best one first. It may start at 1 or
+ * at a higher number, as an electrode whose first rows are cut off, or that goes on after another
+ * one.
  *
  * @param rows, columns   the shape if it is known, else 0. They may be exchanged
  */

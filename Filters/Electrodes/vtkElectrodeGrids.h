@@ -14,8 +14,8 @@
  * of a Fit Deformation whose Measured Landmarks and Traces are input 0. Its point arrays:
  *
  * - Label; Array (the name of the electrode) and Electrode (its number, from 1 on, in the order of
- *   GetElectrodes); Kind ("grid", "strip", "depth", "unknown"); Row and Column (from 1 on; 0: none);
- *   Missing (0 or 1)
+ *   GetElectrodes); Kind ("grid", "strip", "depth", "unknown"); Row and Column (from 1 on;
+ *   0: none); Missing (0 or 1)
  * - Measured (3 numbers, mm, measured frame): the contact; Bent (likewise): on the bent cortex
  * - Outside (mm): how far the contact is outside of the bent cortex, negative if it is buried;
  *   Deviation (mm): standard deviation of the position at rest along the cortex; LeftOut (mm): the

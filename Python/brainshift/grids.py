@@ -175,8 +175,9 @@ def _table(found):
     rows = []
     for i, owner in enumerate(_owners(found)):
         rows.append([found.names[i], *map(_number, found.rest[i]), *map(_number, found.measured[i]),
-                     owner.name, owner.kind, found.row[i], found.column[i], _number(found.floating[i]),
-                     _number(found.deviation[i]), _number(found.leave_one_out[i]), labels[i]])
+                     owner.name, owner.kind, found.row[i], found.column[i],
+                     _number(found.floating[i]), _number(found.deviation[i]),
+                     _number(found.leave_one_out[i]), labels[i]])
     return header, rows
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that brainshift.electrodes recognises a grid beside a strip, finds the tissue under its
 # contacts at rest, bends a volume to them and leaves the rest; that BIDS tables say shapes; that
-# saved files read back, also of electrodes without labels; that a surface is as good as a mask; that
-# other world axes are doubted; and that errors name their cause.
+# saved files read back, also of electrodes without labels; that a surface is as good as a mask;
+# that other world axes are doubted; and that errors name their cause.
 import csv
 import json
 
