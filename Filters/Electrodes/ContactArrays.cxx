@@ -2,14 +2,12 @@
 #include "Filters/Electrodes/ContactArrays.h"
 
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Filters/Electrodes/ContactOrder.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace brainshift
 {
@@ -25,6 +23,8 @@ constexpr double UnevenFraction = 0.25; // of the pitch: a distance that looks w
 constexpr double UnevenMm = 2.0;        // less may be noise
 constexpr double AstrayMm = 3.0;        // the same
 constexpr double AstrayFraction = 0.5;  // of the pitch: a contact that looks misplaced
+constexpr double UnlikeFraction = 0.08; // of the pitch: rows and columns that are not as wide
+constexpr double UnlikeMm = 0.6;        // less may be noise
 constexpr double SamePlaceMm = 0.3;
 constexpr double StraightFraction = 0.02; // distance from a line, of its length: a shaft
 constexpr double WidestShaftPitchMm = 6.5;
@@ -88,10 +88,10 @@ ContactOrder orderOf(const ContactArray& array, std::size_t count)
   order.places.resize(count);
   for (std::size_t k = 0; k < array.contacts.size(); ++k)
   {
-    if (array.contacts[k])
+    if (const std::optional<std::size_t>& contact = array.contacts[k])
     {
       const int index = static_cast<int>(k);
-      order.places[*array.contacts[k]] = glm::ivec2(index / array.columns, index % array.columns);
+      order.places[*contact] = glm::ivec2(index / array.columns, index % array.columns);
     }
   }
   return order;
@@ -121,9 +121,11 @@ public:
     this->Array.members = std::move(members);
   }
 
-  ContactArray array(const std::string& name)
+  // The prefix is for places of missing contacts that no label names.
+  ContactArray array(const std::string& name, const std::string& prefix)
   {
     this->Array.name = name;
+    this->Prefix = prefix;
     this->dropRepeated();
     if (this->Kept.size() < FewestOfLine)
     {
@@ -137,6 +139,7 @@ public:
     this->findPitch();
     this->findKind();
     this->doubtPlaces();
+    this->doubtPitch();
     return this->Array;
   }
 
@@ -182,10 +185,9 @@ private:
     this->Array.labels.assign(count, "");
     for (std::size_t k = 0; k < order.places.size(); ++k)
     {
-      if (order.places[k])
+      if (const std::optional<glm::ivec2>& place = order.places[k])
       {
-        const std::size_t at =
-          static_cast<std::size_t>(order.places[k]->x) * order.columns + order.places[k]->y;
+        const std::size_t at = static_cast<std::size_t>(place->x) * order.columns + place->y;
         this->Array.contacts[at] = this->Kept[k];
         this->Array.labels[at] = this->Contacts[this->Kept[k]].label;
       }
@@ -238,6 +240,18 @@ private:
     {
       return false;
     }
+    this->doubtOtherShapes(ranked);
+    const ContactOrder order = orderBy(numbers, best.numbering);
+    this->take(order);
+    this->nameMissing(best.numbering);
+    this->doubtOutside(order, "has contacts outside of its shape: ");
+    this->doubtRows(order, best.numbering);
+    return true;
+  }
+
+  void doubtOtherShapes(const std::vector<RankedNumbering>& ranked)
+  {
+    const RankedNumbering& best = ranked.front();
     for (const RankedNumbering& other : ranked)
     {
       const bool isOther = other.numbering.columns != best.numbering.columns &&
@@ -248,12 +262,46 @@ private:
           std::to_string(other.numbering.columns) + " contacts as well as " +
           std::to_string(best.numbering.rows) + " x " + std::to_string(best.numbering.columns) +
           "; give its shape");
-        break;
+        return;
       }
     }
-    this->take(orderBy(numbers, best.numbering));
-    this->nameMissing(best.numbering);
-    return true;
+  }
+
+  // Names contacts that have no place.
+  void doubtOutside(const ContactOrder& order, const std::string& words)
+  {
+    std::vector<std::string> outside;
+    for (std::size_t k = 0; k < order.places.size(); ++k)
+    {
+      if (!order.places[k])
+      {
+        outside.push_back(this->nameOf(this->Kept[k]));
+      }
+    }
+    if (!outside.empty())
+    {
+      this->doubt(words + joined(outside));
+    }
+  }
+
+  // Rows of a grid that the numbers alone put before or after the contacts. Those after a grid from
+  // 1 on are in a shape that was given.
+  void doubtRows(const ContactOrder& order, const Numbering& numbering)
+  {
+    const glm::ivec2 empty = emptyRows(order);
+    if (order.rows > 1 && (empty.x > 0 || (empty.y > 0 && numbering.first != 1)))
+    {
+      this->doubt(std::string("has no contact in its ") + (empty.x > 0 ? "first" : "last") +
+        " row; check its shape and labels");
+    }
+    const int before = numbering.first - 1;
+    const bool isGiven = this->Hint && this->Hint->rows * this->Hint->columns > 0;
+    if (!isGiven && order.rows > 1 && before > 0 && before % order.columns == 0 &&
+      before < order.rows * order.columns)
+    {
+      this->doubt("starts at " + this->Array.labels.front() +
+        "; if rows before that are missing, give its shape");
+    }
   }
 
   void findByPositions()
@@ -275,18 +323,16 @@ private:
       this->doubt("has labels that do not follow its shape; its order is that of the positions");
     }
     this->take(order);
-    std::vector<std::string> outside;
-    for (std::size_t k = 0; k < order.places.size(); ++k)
+    for (std::size_t k = 0; k < this->Array.labels.size(); ++k)
     {
-      if (!order.places[k])
+      if (!this->Array.contacts[k])
       {
-        outside.push_back(this->nameOf(this->Kept[k]));
+        const std::size_t columns = order.columns;
+        this->Array.labels[k] = this->Prefix + "r" + std::to_string(k / columns + 1) + "c" +
+          std::to_string(k % columns + 1);
       }
     }
-    if (!outside.empty())
-    {
-      this->doubt("has contacts that belong to no row and column: " + joined(outside));
-    }
+    this->doubtOutside(order, "has contacts that belong to no row and column: ");
     if (this->Hint && this->Hint->rows * this->Hint->columns > 0 &&
       std::minmax(order.rows, order.columns) != std::minmax(this->Hint->rows, this->Hint->columns))
     {
@@ -405,9 +451,12 @@ private:
     return contact ? &this->Contacts[*contact].position : nullptr;
   }
 
-  const std::string& labelAt(int row, int column) const
+  // What a sentence calls the contact at a place.
+  std::string nameAt(int row, int column) const
   {
-    return this->Array.labels[static_cast<std::size_t>(row) * this->Array.columns + column];
+    const std::size_t place = static_cast<std::size_t>(row) * this->Array.columns + column;
+    const std::optional<std::size_t>& contact = this->Array.contacts[place];
+    return contact ? this->nameOf(*contact) : this->Array.labels[place];
   }
 
   // Calls with each contact, the next one along rows or columns, and the one before it.
@@ -440,7 +489,7 @@ private:
       {
         const glm::dvec3& next = *this->at(here.x + step.x, here.y + step.y);
         const double distance = glm::distance(*this->at(here.x, here.y), 0.5 * (next + *before));
-        double& known = away[this->labelAt(here.x, here.y)];
+        double& known = away[this->nameAt(here.x, here.y)];
         known = std::max(known, distance);
         worst = std::max(worst, known);
       }
@@ -454,6 +503,28 @@ private:
       }
     }
     return names;
+  }
+
+  // The sheet is fitted with one distance along rows and columns.
+  void doubtPitch()
+  {
+    std::vector<double> along;
+    std::vector<double> across;
+    this->visitNeighbours([&](const glm::ivec2& here, const glm::ivec2& step) {
+      const glm::ivec2 to = here + step;
+      const double distance = glm::distance(*this->at(here.x, here.y), *this->at(to.x, to.y));
+      (step.y > 0 ? along : across).push_back(distance);
+    });
+    const double one = median(along);
+    const double other = median(across);
+    const double most = std::max(UnlikeFraction * this->Array.pitchMm, UnlikeMm);
+    if (this->Array.kind == ArrayKind::Grid && !along.empty() && !across.empty() &&
+      std::abs(one - other) > most)
+    {
+      this->doubt("has contacts " + roundedText(one) + " mm apart along its rows and " +
+        roundedText(other) + " mm along its columns; it is fitted with " +
+        roundedText(this->Array.pitchMm) + " mm for both");
+    }
   }
 
   // Distances that differ from the pitch, and contacts that are elsewhere.
@@ -474,7 +545,7 @@ private:
       const double distance = glm::distance(*this->at(here.x, here.y), *this->at(to.x, to.y));
       if (std::abs(distance - this->Array.pitchMm) > most)
       {
-        uneven.push_back(this->labelAt(here.x, here.y) + " to " + this->labelAt(to.x, to.y) + " (" +
+        uneven.push_back(this->nameAt(here.x, here.y) + " to " + this->nameAt(to.x, to.y) + " (" +
           roundedText(distance) + " mm)");
       }
     });
@@ -489,6 +560,7 @@ private:
   const std::optional<ArrayHint>& Hint;
   const DepthBelowCortex& Depth;
   ContactArray Array;
+  std::string Prefix;
   std::vector<std::size_t> Kept;     // members of which each label is there once
   std::vector<glm::dvec3> Positions; // of these
 };
@@ -535,16 +607,6 @@ std::vector<std::vector<std::size_t>> clusters(
   }
   return result;
 }
-
-std::optional<ArrayKind> kindNamed(std::string word)
-{
-  std::transform(word.begin(), word.end(), word.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  static const std::map<std::string, ArrayKind> kinds{ { "grid", ArrayKind::Grid },
-    { "strip", ArrayKind::Strip }, { "depth", ArrayKind::Depth }, { "seeg", ArrayKind::Depth } };
-  const auto found = kinds.find(word);
-  return found == kinds.end() ? std::optional<ArrayKind>() : found->second;
-}
 }
 
 const char* nameOf(ArrayKind kind)
@@ -560,52 +622,6 @@ const char* nameOf(ArrayKind kind)
     default:
       return "unknown";
   }
-}
-
-ArrayHint hintIn(const std::string& text)
-{
-  const auto refuse = [&](const std::string& word) {
-    throw Problem("The hint \"" + text + "\" says \"" + word +
-      "\"; a hint is a group, =, and a shape such as 8x8, a kind (grid, strip, depth) or a pitch "
-      "such as 10mm");
-  };
-  const std::size_t equals = text.rfind('=');
-  if (equals == std::string::npos)
-  {
-    refuse(text);
-  }
-  ArrayHint hint;
-  hint.group = text.substr(0, equals);
-  std::istringstream words(text.substr(equals + 1));
-  for (std::string word; words >> word;)
-  {
-    const std::size_t times = word.find_first_of("xX");
-    const bool isPitch = word.size() > 2 && word.compare(word.size() - 2, 2, "mm") == 0;
-    if (const std::optional<ArrayKind> kind = kindNamed(word))
-    {
-      hint.kind = *kind;
-    }
-    else if (isPitch)
-    {
-      hint.pitchMm = numberIn(word.substr(0, word.size() - 2)).value_or(0.0);
-      if (!(hint.pitchMm > 0.0 && hint.pitchMm <= 100.0))
-      {
-        refuse(word);
-      }
-    }
-    else
-    {
-      constexpr int Most = 64; // of rows and of columns
-      hint.rows = times == std::string::npos ? 0 : numberIn<int>(word.substr(0, times)).value_or(0);
-      hint.columns =
-        times == std::string::npos ? 0 : numberIn<int>(word.substr(times + 1)).value_or(0);
-      if (hint.rows < 1 || hint.rows > Most || hint.columns < 1 || hint.columns > Most)
-      {
-        refuse(word);
-      }
-    }
-  }
-  return hint;
 }
 
 std::vector<ContactArray> recogniseArrays(const std::vector<Contact>& contacts,
@@ -635,7 +651,9 @@ std::vector<ContactArray> recogniseArrays(const std::vector<Contact>& contacts,
       : std::vector<std::vector<std::size_t>>{ members[name] };
     for (const std::vector<std::size_t>& part : parts)
     {
-      arrays.push_back(Recognition(contacts, part, hint, depth).array(name));
+      const std::string number = parts.size() > 1 ? std::to_string(arrays.size() + 1) + "-" : "";
+      arrays.push_back(
+        Recognition(contacts, part, hint, depth).array(name, name.empty() ? number : name + "-"));
     }
   }
   return arrays;

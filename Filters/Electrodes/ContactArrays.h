@@ -71,7 +71,12 @@ struct ContactArray
   bool byLabels = true; ///< whether the labels say the order; false: the positions do
   /** rows * columns numbers of contacts, row after row; none: the contact is missing. */
   std::vector<std::optional<std::size_t>> contacts;
-  std::vector<std::string> labels;  ///< of the same places; empty if nothing says it
+  /**
+   * Of the same places. A contact without a label has an empty one. A missing contact that no
+   * number names is called by its row and column, such as r2c3, with the electrode before that
+   * if there are several: G-r2c3, 2-r2c3.
+   */
+  std::vector<std::string> labels;
   std::vector<std::size_t> members; ///< all contacts of the electrode, in or out of order
   std::vector<std::string> doubts;  ///< sentences without a full stop
 };

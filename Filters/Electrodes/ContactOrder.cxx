@@ -19,6 +19,8 @@ constexpr double StrangerFactor = 1.25; // times the pitch: closer than a diagon
 constexpr double NeighbourFactor = 1.3; // the same, for contacts of which nothing is known
 constexpr double FarthestStep = 0.45;   // times the pitch, from where a neighbour is expected
 constexpr double StepMemory = 0.5;      // of a step along the sheet, against the new one
+constexpr double EmptyRow = 1e-3;       // of misfit, for a row without contacts at an end
+constexpr double OtherFirst = 1e-4;     // the same, for a first number that is not 1
 
 using Cell = std::pair<int, int>;
 
@@ -28,9 +30,9 @@ std::map<Cell, std::size_t> cellsOf(const ContactOrder& order)
   std::map<Cell, std::size_t> cells;
   for (std::size_t i = 0; i < order.places.size(); ++i)
   {
-    if (order.places[i])
+    if (const std::optional<glm::ivec2>& place = order.places[i])
     {
-      cells.emplace(Cell{ order.places[i]->x, order.places[i]->y }, i);
+      cells.emplace(Cell{ place->x, place->y }, i);
     }
   }
   return cells;
@@ -59,16 +61,18 @@ double strangers(const std::vector<glm::dvec3>& positions, const ContactOrder& o
   int count = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    if (!order.places[i])
+    const std::optional<glm::ivec2>& place = order.places[i];
+    if (!place)
     {
       continue;
     }
     ++count;
     for (std::size_t j = 0; j < positions.size(); ++j)
     {
-      if (order.places[j] && glm::distance(positions[i], positions[j]) < StrangerFactor * pitch)
+      const std::optional<glm::ivec2>& other = order.places[j];
+      if (other && glm::distance(positions[i], positions[j]) < StrangerFactor * pitch)
       {
-        const glm::ivec2 apart = glm::abs(*order.places[i] - *order.places[j]);
+        const glm::ivec2 apart = glm::abs(*place - *other);
         if (std::max(apart.x, apart.y) > 1)
         {
           ++found;
@@ -232,6 +236,39 @@ std::size_t seedOf(const std::vector<glm::dvec3>& positions, double pitch)
   }
   return best;
 }
+
+// Numbers that the first contact of a sheet may have: 1, that of the row of the least number, as if
+// the rows went on from 1, and the least one.
+std::vector<int> firstNumbers(int least, int columns, bool mayStartAt1)
+{
+  std::vector<int> firsts;
+  if (mayStartAt1)
+  {
+    firsts.push_back(1);
+  }
+  for (const int first : { least - (std::max(least, 1) - 1) % columns, least })
+  {
+    if (std::find(firsts.begin(), firsts.end(), first) == firsts.end())
+    {
+      firsts.push_back(first);
+    }
+  }
+  return firsts;
+}
+
+// A numbering with its misfit. Of numberings that are the same but for rows without contacts, the
+// one with the fewest such rows is best, then the one from 1 on.
+RankedNumbering ranking(const std::vector<glm::dvec3>& positions, const std::vector<int>& numbers,
+  const Numbering& numbering)
+{
+  const ContactOrder order = orderBy(numbers, numbering);
+  const auto without = std::count(order.places.begin(), order.places.end(), std::nullopt);
+  const glm::ivec2 empty = emptyRows(order);
+  const bool isFromOther = numbering.first != 1;
+  return { numbering,
+    misfit(positions, order) + static_cast<double>(without) / static_cast<double>(numbers.size()) +
+      EmptyRow * (empty.x + empty.y) + (isFromOther ? OtherFirst : 0.0) };
+}
 }
 
 std::optional<glm::ivec2> placeOf(int number, const Numbering& numbering)
@@ -311,37 +348,51 @@ double misfit(const std::vector<glm::dvec3>& positions, const ContactOrder& orde
   return sum / static_cast<double>(differences.size()) + strangers(positions, order, pitch);
 }
 
+glm::ivec2 emptyRows(const ContactOrder& order)
+{
+  int low = order.rows;
+  int high = order.rows - 1;
+  for (const std::optional<glm::ivec2>& place : order.places)
+  {
+    if (place)
+    {
+      high = low == order.rows ? place->x : std::max(high, place->x);
+      low = std::min(low, place->x);
+    }
+  }
+  return { low, order.rows - 1 - high };
+}
+
 std::vector<RankedNumbering> rankedNumberings(
   const std::vector<glm::dvec3>& positions, const std::vector<int>& numbers, int rows, int columns)
 {
   const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
-  // The first row may be missing; an electrode that goes on after another one is numbered higher.
-  const int first = *least >= 1 && *least <= *most / 2 ? 1 : *least;
-  const int count = *most - first + 1;
+  const bool isShaped = rows * columns > 0;
+  // Without a shape, an electrode that goes on after another one is numbered higher.
+  const bool mayStartAt1 = *least >= 1 && (isShaped || *least <= *most / 2);
   std::vector<RankedNumbering> ranked;
-  const auto add = [&](int down, int across, bool alternates) {
-    const Numbering numbering{ down, across, first, alternates };
-    const ContactOrder order = orderBy(numbers, numbering);
-    const auto without = std::count(order.places.begin(), order.places.end(), std::nullopt);
-    ranked.push_back({ numbering,
-      misfit(positions, order) +
-        static_cast<double>(without) / static_cast<double>(numbers.size()) });
-  };
-  if (rows * columns > 0)
+  std::vector<glm::ivec2> shapes; // 0 rows: as many as the numbers need
+  if (isShaped)
   {
-    for (const bool alternates : { false, true })
-    {
-      add(rows, columns, alternates);
-      add(columns, rows, alternates);
-    }
+    shapes = { { rows, columns }, { columns, rows } };
   }
   else
   {
-    add(1, count, false);
+    const int first = mayStartAt1 ? 1 : *least;
+    const int count = *most - first + 1;
+    ranked.push_back(ranking(positions, numbers, { 1, count, first, false }));
     for (int across = 2; across <= std::min(MostColumns, (count + 1) / 2); ++across)
     {
-      add((count + across - 1) / across, across, false);
-      add((count + across - 1) / across, across, true);
+      shapes.emplace_back(0, across);
+    }
+  }
+  for (const glm::ivec2& shape : shapes)
+  {
+    for (const int first : firstNumbers(*least, shape.y, mayStartAt1))
+    {
+      const int down = shape.x > 0 ? shape.x : (*most - first + shape.y) / shape.y;
+      ranked.push_back(ranking(positions, numbers, { down, shape.y, first, false }));
+      ranked.push_back(ranking(positions, numbers, { down, shape.y, first, true }));
     }
   }
   std::stable_sort(

@@ -45,6 +45,9 @@ ContactOrder orderBy(const std::vector<int>& numbers, const Numbering& numbering
 std::vector<double> neighbourDistances(
   const std::vector<glm::dvec3>& positions, const ContactOrder& order);
 
+/** How many rows without contacts are before all others, and how many after them. */
+glm::ivec2 emptyRows(const ContactOrder& order);
+
 /** The number in the middle of a sorted list; 0 of an empty one. */
 double median(std::vector<double> numbers);
 
@@ -63,7 +66,9 @@ struct RankedNumbering
 };
 
 /**
- * All numberings that a sheet of these numbers may have, the best one first.
+ * All numberings that a sheet of these numbers may have, the best one first. It may start at 1 or
+ * at a higher number, as an electrode whose first rows are cut off, or that goes on after another
+ * one.
  *
  * @param rows, columns   the shape if it is known, else 0. They may be exchanged
  */

@@ -53,6 +53,13 @@ TriangleMesh meshOf(vtkPolyData* surface)
   return mesh;
 }
 
+// The axes of contacts, or others if they say nothing.
+WorldAxes axesOf(vtkInformationVector* contacts, int otherwise)
+{
+  const WorldAxes named = worldAxesOf(vtkDataObject::GetData(contacts));
+  return named == WorldAxes::Unknown ? static_cast<WorldAxes>(otherwise) : named;
+}
+
 // A point of the output.
 struct Result
 {
@@ -211,9 +218,13 @@ struct vtkElectrodeGrids::State
     }
   }
 
-  void warn()
+  void warn(const std::string& sides)
   {
     std::vector<std::string> sentences;
+    if (!sides.empty())
+    {
+      sentences.push_back(sides);
+    }
     for (const ContactArray& array : this->Arrays)
     {
       sentences.insert(sentences.end(), array.doubts.begin(), array.doubts.end());
@@ -248,6 +259,8 @@ struct vtkElectrodeGrids::State
       output, "Label", results, [](const Result& result) { return result.label; });
     addArray<vtkStringArray>(output, "Array", results,
       [&](const Result& result) { return this->Arrays[result.array].name; });
+    addArray<vtkIntArray>(output, "Electrode", results,
+      [](const Result& result) { return static_cast<int>(result.array) + 1; });
     addArray<vtkStringArray>(output, "Kind", results,
       [&](const Result& result) { return std::string(nameOf(this->Arrays[result.array].kind)); });
     addArray<vtkIntArray>(output, "Row", results, [](const Result& result) { return result.row; });
@@ -501,6 +514,27 @@ void vtkElectrodeGrids::Fit(vtkInformationVector** inputs)
   }
 }
 
+std::string vtkElectrodeGrids::DoubtsAboutSides(vtkInformationVector** inputs) const
+{
+  const NamedAxes contacts{ "the contacts", axesOf(inputs[0], this->PointAxes) };
+  vtkDataObject* cortex = vtkDataObject::GetData(inputs[CortexPort]);
+  vtkDataObject* opening = vtkDataObject::GetData(inputs[OpeningPort]);
+  for (const auto& [given, noun] :
+    { std::pair<vtkDataObject*, const char*>{ cortex, "the cortex" }, { opening, "the opening" } })
+  {
+    // Surfaces come from many tools, which do not name their axes, and from scripts.
+    const WorldAxes axes = worldAxesOf(given);
+    const bool isComparable = given && contacts.axes != WorldAxes::Unknown &&
+      (axes != WorldAxes::Unknown || vtkImageData::SafeDownCast(given));
+    const std::string words = isComparable ? wordsOnSides({ noun, axes }, contacts) : std::string();
+    if (!words.empty())
+    {
+      return words; // one sentence is enough
+    }
+  }
+  return {};
+}
+
 int vtkElectrodeGrids::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -524,8 +558,8 @@ int vtkElectrodeGrids::RequestData(
   }
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   state.write(output, this->ShowMissing);
-  nameWorldAxes(output, worldAxesOf(vtkDataObject::GetData(inputs[0])));
-  state.warn();
+  nameWorldAxes(output, axesOf(inputs[0], this->PointAxes));
+  state.warn(this->DoubtsAboutSides(inputs));
   warnAnew(this, state.Warning, state.WarnedOf);
   return 1;
 }
@@ -536,5 +570,6 @@ void vtkElectrodeGrids::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SurfaceBy: " << (this->SurfaceBy ? "Label" : "Threshold") << "\n"
      << indent << "Stiffness: " << this->Stiffness << "\n"
      << indent << "ContactDeviation: " << this->ContactDeviation << "\n"
+     << indent << "PointAxes: " << this->PointAxes << "\n"
      << indent << "Electrodes: " << this->GetElectrodes() << "\n";
 }

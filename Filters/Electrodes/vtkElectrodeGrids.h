@@ -13,8 +13,9 @@
  * Output: a point for each contact in the order of the input, at rest, to be the Rest Landmarks
  * of a Fit Deformation whose Measured Landmarks and Traces are input 0. Its point arrays:
  *
- * - Label; Array (the electrode); Kind ("grid", "strip", "depth", "unknown"); Row and Column
- *   (from 1 on; 0: none); Missing (0 or 1)
+ * - Label; Array (the name of the electrode) and Electrode (its number, from 1 on, in the order of
+ *   GetElectrodes); Kind ("grid", "strip", "depth", "unknown"); Row and Column (from 1 on;
+ *   0: none); Missing (0 or 1)
  * - Measured (3 numbers, mm, measured frame): the contact; Bent (likewise): on the bent cortex
  * - Outside (mm): how far the contact is outside of the bent cortex, negative if it is buried;
  *   Deviation (mm): standard deviation of the position at rest along the cortex; LeftOut (mm): the
@@ -90,6 +91,15 @@ public:
   ///@}
 
   ///@{
+  /**
+   * World axes (WorldAxes.h) of contacts that do not say theirs: 1 RAS, 2 LPS, 0 (default) unknown.
+   * A warning reports contacts whose axes are not those of the cortex or of the opening.
+   */
+  vtkSetClampMacro(PointAxes, int, 0, 2);
+  vtkGetMacro(PointAxes, int);
+  ///@}
+
+  ///@{
   /** Labels, in their order, of contacts whose input has no array Label. Default: none. */
   void AddContactName(const char* name);
   void ClearContactNames();
@@ -143,6 +153,7 @@ private:
   double OpeningCentre[3] = { 0.0, 0.0, 0.0 };
   double OpeningRadius = 0.0;
   bool ShowMissing = false;
+  int PointAxes = 0;
   std::vector<std::string> ContactNames;
   std::vector<std::string> ContactGroups;
   std::vector<std::string> Shapes;
@@ -151,6 +162,8 @@ private:
   void ReadContacts(vtkInformationVector** inputs);
   void FindCortex(vtkInformationVector** inputs);
   void Fit(vtkInformationVector** inputs);
+  // A sentence on world axes that are not those of the contacts; empty if there is none.
+  std::string DoubtsAboutSides(vtkInformationVector** inputs) const;
 
   struct State;
   std::unique_ptr<State> Internal;

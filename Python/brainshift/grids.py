@@ -7,8 +7,9 @@ import json
 import os
 
 from .files import reason_of
-from .fitting import _cortex, _names, _opening, _points, fit
-from .points import read_points
+from .fitting import _cortex, _names, _opening, _point_axes, _points, fit
+from .points import Points, read_points
+from .views import world_axes
 
 ElectrodeGrid = collections.namedtuple(
     "ElectrodeGrid", "name kind rows columns pitch by_labels labels missing")
@@ -20,7 +21,7 @@ ElectrodeGrid.__doc__ = """An electrode in a result of `electrodes`.
 - `pitch`: the distance between neighbours in mm
 - `by_labels`: whether the numbers in the labels say the order; else the positions do
 - `labels`: the labels of its places, row after row
-- `missing`: those of contacts that the list lacks
+- `missing`: those of contacts that the list lacks; without labels, by row and column, such as r2c3
 """
 
 #: Columns of BIDS that say the shape of an electrode, and what the kinds are called there.
@@ -76,6 +77,7 @@ class Electrodes:
         self.rest, self.bent, self.measured = rest[found], bent[found], numbers("Measured")[found]
         self.floating, self.deviation = numbers("Outside")[found], numbers("Deviation")[found]
         self.leave_one_out = numbers("LeftOut")[found]
+        self._electrode = numbers("Electrode")[found] - 1
         self.row, self.column = numbers("Row")[found], numbers("Column")[found]
         self.off = (numbers("Weight")[found] == 0) & numpy.isfinite(self.floating)
 
@@ -160,9 +162,10 @@ def _save_table(name, header, rows):
 
 
 def _owners(found):
-    """The electrode of each contact, by its name; `None` if it is on none."""
-    by_label = {label: one for one in found.grids for label in one.labels if label}
-    return [by_label.get(name) for name in found.names]
+    """The electrode of each contact. One without a name is called by its number."""
+    named = [one if one.name else one._replace(name=f"electrode{i + 1}")
+             for i, one in enumerate(found.grids)]
+    return [named[number] for number in found._electrode]
 
 
 def _table(found):
@@ -172,9 +175,9 @@ def _table(found):
     rows = []
     for i, owner in enumerate(_owners(found)):
         rows.append([found.names[i], *map(_number, found.rest[i]), *map(_number, found.measured[i]),
-                     owner.name if owner else "n/a", owner.kind if owner else "n/a",
-                     found.row[i], found.column[i], _number(found.floating[i]),
-                     _number(found.deviation[i]), _number(found.leave_one_out[i]), labels[i]])
+                     owner.name, owner.kind, found.row[i], found.column[i],
+                     _number(found.floating[i]), _number(found.deviation[i]),
+                     _number(found.leave_one_out[i]), labels[i]])
     return header, rows
 
 
@@ -184,10 +187,10 @@ def _save_bids(found, name):
         header.append("region")
     rows = []
     for i, owner in enumerate(_owners(found)):
-        size = sorted((owner.rows, owner.columns)) if owner else []
+        size = sorted((owner.rows, owner.columns))
         row = [found.names[i] or f"contact{i + 1}", *map(_number, found.rest[i]), "n/a",
-               owner.name if owner else "n/a", owner.kind if owner else "n/a",
-               f"[{size[0]}x{size[1]}]" if owner and size[0] else "n/a"]
+               owner.name, owner.kind if owner.kind != "unknown" else "n/a",
+               f"[{size[0]}x{size[1]}]" if size[0] else "n/a"]
         rows.append(row + ([found.label[i]] if found.label else []))
     system = {"iEEGCoordinateSystem": "ScanRAS", "iEEGCoordinateUnits": "mm",
               "iEEGCoordinateProcessingDescription":
@@ -271,7 +274,7 @@ def _regions(atlas, rest):
     result = []
     for position in rest:
         point = image.FindPoint([float(number) for number in position])
-        result.append(f"{array.GetTuple1(point):g}" if point >= 0 else "n/a")
+        result.append(f"{array.GetTuple1(point):.17g}" if point >= 0 else "n/a")
     return result
 
 
@@ -334,7 +337,7 @@ def electrodes(contacts, cortex, deformation=None, threshold=None, label=None, a
     source = simple.ElectrodeGrids(
         registrationName="Contacts At Rest", Input=made, Cortex=surface, Stiffness=float(stiffness),
         ContactDeviation=float(noise), ShowMissing=1, ContactNames=names, **described,
-        **opened, **_cortex(threshold, label, array, None))
+        **opened, **_cortex(threshold, label, array, None), **_point_axes(contacts))
     try:
         source.UpdatePipeline()
         problem = reason_of(source)
@@ -342,18 +345,20 @@ def electrodes(contacts, cortex, deformation=None, threshold=None, label=None, a
             for proxy in (source, made):
                 simple.Delete(proxy)
             raise ValueError(problem)
-        found = Electrodes(source, "RAS" if hasattr(contacts, "labels") else "")
+        is_read = hasattr(contacts, "labels")  # so they are RAS
+        found = Electrodes(source, "RAS" if is_read else world_axes(surface) or "")
         if labels is not None:
             found.label = _regions(labels, found.rest)
         if deformation is not None:
-            found.fit = _fitted(found, deformation, surface, opening, (threshold, label, array))
+            found.fit = _fitted(found, deformation, surface, opening, (threshold, label, array),
+                                is_read)
         return found
     finally:
         simple.SetActiveSource(active)
 
 
-def _fitted(found, deformation, surface, opening, how):
-    """The fit of contacts of grids that are on the cortex."""
+def _fitted(found, deformation, surface, opening, how, is_read):
+    """The fit of contacts of grids that are on the cortex. If they were read, they are RAS."""
     import numpy
 
     used = numpy.isfinite(found.floating) & ~found.off
@@ -362,6 +367,9 @@ def _fitted(found, deformation, surface, opening, how):
     threshold, label, array = how
     is_image = surface.GetDataInformation().GetDataSetTypeAsString() == "vtkImageData"
     is_own = is_image and surface.SMProxy is deformation.Input.SMProxy
-    return fit(deformation, rest=found.rest[used], measured=found.measured[used],
-               traces=found.measured[used], threshold=threshold, label=label, array=array,
+    measured = found.measured[used]
+    if is_read:
+        measured = Points(measured, [""] * len(measured), *[None] * 3)
+    return fit(deformation, rest=found.rest[used], measured=measured, traces=measured,
+               threshold=threshold, label=label, array=array,
                segmentation=surface if is_image and not is_own else None, opening=opening)

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 using namespace brainshift;
 using namespace brainshift::testing;
@@ -47,6 +48,17 @@ std::vector<Contact> shaft(const std::string& prefix, int count, double pitchMm)
       numbered(prefix, i + 1), "" });
   }
   return contacts;
+}
+
+std::vector<std::string> labelsOf(const std::vector<Contact>& contacts)
+{
+  std::vector<std::string> labels;
+  labels.reserve(contacts.size());
+  for (const Contact& contact : contacts)
+  {
+    labels.push_back(contact.label);
+  }
+  return labels;
 }
 
 bool says(const ContactArray& array, const std::string& words)
@@ -106,11 +118,7 @@ TEST_P(ContactArraysOf, FindsTheOrderInPositionsIfLabelsAreShuffled)
 {
   const GridShape shape = GetParam();
   std::vector<Contact> contacts = gridOfShape(shape, "G", 5);
-  std::vector<std::string> labels;
-  for (const Contact& contact : contacts)
-  {
-    labels.push_back(contact.label);
-  }
+  std::vector<std::string> labels = labelsOf(contacts);
   std::mt19937 random(2);
   std::shuffle(labels.begin(), labels.end(), random);
   for (std::size_t i = 0; i < contacts.size(); ++i)
@@ -258,4 +266,110 @@ TEST(ContactArrays, TakeHintsFirst)
   EXPECT_EQ(array.rows, 4);
   EXPECT_EQ(array.columns, 8);
   EXPECT_EQ(array.labels.back(), "G32");
+}
+
+// The labels start elsewhere than at 1: a contact's number is its place and what is before that.
+TEST(ContactArrays, FollowNumbersThatStartLater)
+{
+  for (const auto& [rows, columns, first] :
+    { std::tuple(7, 8, 9), std::tuple(6, 8, 17), std::tuple(4, 8, 5), std::tuple(4, 8, 65) })
+  {
+    std::vector<Contact> contacts = gridOfShape({ rows, columns, 10.0 }, "G", 13);
+    for (int k = 0; k < rows * columns; ++k)
+    {
+      contacts[k].label = numbered("G", first + k);
+    }
+    const std::string shape = "G=" + std::to_string(rows) + "x" + std::to_string(columns);
+    for (const bool isGiven : { true, false })
+    {
+      SCOPED_TRACE(shape + (isGiven ? " given, " : " found, ") + std::to_string(first));
+      const std::vector<ArrayHint> hints =
+        isGiven ? std::vector<ArrayHint>{ hintIn(shape) } : std::vector<ArrayHint>();
+      const ContactArray array = recogniseArrays(contacts, hints).front();
+      EXPECT_TRUE(array.byLabels);
+      EXPECT_EQ(array.rows, rows);
+      EXPECT_EQ(array.columns, columns);
+      EXPECT_EQ(array.labels, labelsOf(contacts));
+      EXPECT_EQ(std::count(array.contacts.begin(), array.contacts.end(), std::nullopt), 0);
+      // Rows before these may be missing.
+      EXPECT_EQ(says(array, "starts at"), !isGiven && (first == 9 || first == 17));
+      EXPECT_EQ(array.doubts.size(), says(array, "starts at") ? 1u : 0u);
+    }
+  }
+}
+
+TEST(ContactArrays, DoubtAShapeThatIsWrong)
+{
+  const std::vector<Contact> contacts = gridOfShape({ 8, 8, 10.0 }, "G", 14);
+  const ContactArray array = recogniseArrays(contacts, { hintIn("G=8x7") }).front();
+  EXPECT_EQ(std::minmax(array.rows, array.columns), std::minmax(7, 8));
+  EXPECT_TRUE(says(array, "outside of its shape: G57, G58"));
+}
+
+TEST(ContactArrays, DoubtARowThatHasNoContacts)
+{
+  std::vector<Contact> contacts = gridOfShape({ 8, 8, 10.0 }, "G", 15);
+  contacts.erase(contacts.begin(), contacts.begin() + 8);
+  const ContactArray array = recogniseArrays(contacts, { hintIn("G=8x8") }).front();
+  EXPECT_EQ(array.rows, 8);
+  EXPECT_EQ(array.labels.front(), "G1");
+  EXPECT_FALSE(array.contacts.front());
+  EXPECT_TRUE(says(array, "no contact in its first row"));
+}
+
+TEST(ContactArrays, DoubtRowsAndColumnsThatAreNotAsFarApart)
+{
+  std::mt19937 random(16);
+  std::normal_distribution<double> noise(0.0, NoiseMm);
+  std::vector<Contact> contacts;
+  for (int k = 0; k < 32; ++k)
+  {
+    contacts.push_back({ glm::dvec3(10.0 * (k % 8) + noise(random), 8.0 * (k / 8) + noise(random),
+                           0.3 * (k % 8) * (k % 8)),
+      numbered("G", k + 1), "" });
+  }
+  const ContactArray array = recogniseArrays(contacts).front();
+  EXPECT_EQ(array.columns, 8);
+  EXPECT_TRUE(says(array, "mm apart along its rows"));
+  // A sheet that is stretched by a sag under it is none of these.
+  for (const unsigned seed : { 1u, 2u, 3u, 4u })
+  {
+    const ContactArray sagged =
+      recogniseArrays(gridOfShape({ 8, 8, 10.0, true }, "G", seed)).front();
+    EXPECT_FALSE(says(sagged, "mm apart along its rows")) << seed;
+  }
+}
+
+TEST(ContactArrays, NamePlacesWithoutLabels)
+{
+  std::vector<Contact> contacts = gridOfShape({ 4, 8, 10.0 }, "", 17);
+  for (Contact& contact : contacts)
+  {
+    contact.label.clear();
+  }
+  std::vector<Contact> aside = contacts;
+  for (Contact& contact : aside)
+  {
+    contact.position += glm::dvec3(0.0, 200.0, 0.0);
+  }
+  contacts.erase(contacts.begin() + 18);
+  contacts.erase(contacts.begin() + 9);
+  const std::vector<std::string> alone = recogniseArrays(contacts).front().labels;
+  EXPECT_EQ(std::count(alone.begin(), alone.end(), ""), 30);
+  const auto named = std::find_if(
+    alone.begin(), alone.end(), [](const std::string& label) { return !label.empty(); });
+  ASSERT_NE(named, alone.end());
+  EXPECT_EQ(*named,
+    "r" + std::to_string((named - alone.begin()) / 8 + 1) + "c" +
+      std::to_string((named - alone.begin()) % 8 + 1));
+  contacts.insert(contacts.end(), aside.begin() + 1, aside.end() - 1);
+  const std::vector<ContactArray> both = recogniseArrays(contacts);
+  ASSERT_EQ(both.size(), 2u);
+  for (const ContactArray& array : both)
+  {
+    const std::string number = &array == both.data() ? "1-r" : "2-r";
+    const auto missing = std::count_if(array.labels.begin(), array.labels.end(),
+      [&](const std::string& label) { return label.compare(0, 3, number) == 0; });
+    EXPECT_EQ(missing, 2);
+  }
 }

@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that brainshift.electrodes recognises a grid beside a strip, finds the tissue under its
 # contacts at rest, bends a volume to them and leaves the rest; that BIDS tables say shapes; that
-# saved files read back; that a surface is as good as a mask; and that errors name their cause.
+# saved files read back, also of electrodes without labels; that a surface is as good as a mask;
+# that other world axes are doubted; and that errors name their cause.
 import csv
 import json
 
 import numpy
-from brainshift_testing import assert_says, ball, load_plugin, run_tests, scratch, volume
+from brainshift_testing import (assert_says, ball, load_plugin, output, run_tests, scratch,
+                                volume)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import simple  # noqa: E402
+from vtkmodules.vtkCommonCore import vtkStringArray  # noqa: E402
 
 SIDE = 61
 SPACING = 2.5  # mm
@@ -50,6 +53,17 @@ def strip():
 
 def brain():
     return volume(ball(side=SIDE, radius=RADIUS / SPACING), spacing=(SPACING,) * 3)
+
+
+def named(source, world):
+    """The source, which says its world axes."""
+    word = vtkStringArray()
+    word.SetName("WorldAxes")
+    word.InsertNextValue(world)
+    output(source).GetFieldData().AddArray(word)
+    source.MarkModified(source.SMProxy)
+    source.UpdatePipeline()
+    return source
 
 
 def points_of(positions, labels):
@@ -159,6 +173,42 @@ def test_steps_between_voxels_of_a_mask_do_not_count():
     error = numpy.linalg.norm(found.rest - rest, axis=1)
     print(f"at rest {error.mean():.2f} mm (largest {error.max():.2f})")
     assert error.mean() < 1.0 and not found.off.any(), found
+
+
+def test_electrodes_without_labels_are_kept_apart_in_files():
+    rest, measured, _ = grid()
+    turn = numpy.array(((1.0, 0, 0), (0, 0, -1.0), (0, 1.0, 0)))  # to the front of the ball
+    corner = numpy.array([COLUMNS * row + column for row in range(3) for column in range(4)])
+    beside = (rest[corner] - MIDDLE) @ turn.T + MIDDLE
+    first = numpy.delete(measured, (7, 11), axis=0)
+    ids = numpy.full((SIDE,) * 3, 182305713, numpy.int32)
+    found = brainshift.electrodes(numpy.concatenate((first, beside)), brain(), threshold=50,
+                                  labels=volume(ids, spacing=(SPACING,) * 3))
+    assert [(one.rows, one.columns) for one in found.grids] == [(4, 5), (3, 4)], found.grids
+    assert len(found.grids[0].missing) == 2 and len(found.missing) == 2, found.missing
+    assert all(name.startswith("1-r") for name in found.missing), found.missing
+    assert found.label[0] == "182305713", found.label[0]
+    for name, key in (("none_electrodes.tsv", "group"), ("none.tsv", "electrode")):
+        found.save(scratch(name))
+        with open(scratch(name), newline="") as file:
+            rows = list(csv.DictReader(file, delimiter="\t"))
+        assert [row[key] for row in rows] == ["electrode1"] * 18 + ["electrode2"] * 12, rows
+        if key == "group":
+            assert (rows[0]["dimension"], rows[-1]["dimension"]) == ("[4x5]", "[3x4]")
+
+
+def test_contacts_and_a_cortex_of_other_axes_are_doubted():
+    _, measured, labels = grid()
+    given, lps = points_of(measured, labels), named(brain(), "LPS")
+    bent = simple.FreeFormDeformation(Input=lps)
+    found = brainshift.electrodes(given, lps, deformation=bent, threshold=50)
+    assert "the cortex are LPS, and those of the contacts are RAS" in found.warning, found.warning
+    assert "LPS" in found.fit.warning, found.fit.warning
+    same = brainshift.electrodes(given, named(brain(), "RAS"), threshold=50)
+    assert "world axes" not in same.warning, same.warning
+    bare = brainshift.electrodes(measured, lps, threshold=50)  # in the frame of the cortex
+    assert "world axes" not in bare.warning, bare.warning
+    assert_refused(lambda: bare.save(scratch("lps.csv")), "LPS")
 
 
 def test_errors_name_their_cause():
