@@ -231,9 +231,9 @@ private:
     const double variance = this->Settings.contactDeviation * this->Settings.contactDeviation;
     for (std::size_t i = 0; i < this->count(); ++i)
     {
-      if (this->Measured[i])
+      if (const std::optional<glm::dvec3>& measured = this->Measured[i])
       {
-        const glm::dvec3 away = places.bent[i] - *this->Measured[i];
+        const glm::dvec3 away = places.bent[i] - *measured;
         sum += this->Weights[i] * glm::dot(away, away) / variance;
       }
     }
@@ -325,12 +325,12 @@ private:
     const double variance = this->Settings.contactDeviation * this->Settings.contactDeviation;
     for (std::size_t i = 0; i < this->count(); ++i)
     {
-      if (this->Measured[i])
+      if (const std::optional<glm::dvec3>& measured = this->Measured[i])
       {
         const Eigen::Index at = PerPlace * static_cast<Eigen::Index>(i) + AtRest;
         const double weight = this->Weights[i] / variance;
         h.diagonal().segment<3>(at).array() += weight;
-        g.segment<3>(at) += weight * eigen(this->At.bent[i] - *this->Measured[i]);
+        g.segment<3>(at) += weight * eigen(this->At.bent[i] - *measured);
       }
     }
     this->addSprings(h, g);
@@ -399,14 +399,15 @@ private:
       place.bent = this->At.bent[i];
       place.deviation = std::sqrt(0.5 * covariance.diagonal().segment<AtRest>(at).sum());
       place.outside = place.outsideDeviation = place.leftOut = NaN;
-      if (!this->Measured[i])
+      const std::optional<glm::dvec3>& measured = this->Measured[i];
+      if (!measured)
       {
         continue;
       }
       const Eigen::Matrix3d bent = covariance.block<3, 3>(at + AtRest, at + AtRest);
       const Eigen::Matrix3d kept =
         Eigen::Matrix3d::Identity() - bent * (this->Weights[i] / variance);
-      const Eigen::Vector3d error = kept.inverse() * eigen(*this->Measured[i] - this->At.bent[i]);
+      const Eigen::Vector3d error = kept.inverse() * eigen(*measured - this->At.bent[i]);
       const Eigen::Matrix3d expected =
         kept.inverse() * bent + Eigen::Matrix3d::Identity() * variance;
       const Eigen::Vector3d normal = eigen(this->At.normals[i]);
@@ -503,10 +504,10 @@ std::vector<glm::dvec3> filledSheet(const Sheet& sheet)
   Matrix values = Matrix::Zero(count, 3);
   for (Eigen::Index i = 0; i < count; ++i)
   {
-    if (sheet.contacts[i])
+    if (const std::optional<glm::dvec3>& contact = sheet.contacts[i])
     {
       h(i, i) += Fixed;
-      values.row(i) = Fixed * eigen(*sheet.contacts[i]).transpose();
+      values.row(i) = Fixed * eigen(*contact).transpose();
     }
   }
   const Matrix filled = h.ldlt().solve(values);
@@ -514,7 +515,7 @@ std::vector<glm::dvec3> filledSheet(const Sheet& sheet)
   result.reserve(count);
   for (Eigen::Index i = 0; i < count; ++i)
   {
-    result.push_back(sheet.contacts[i] ? *sheet.contacts[i] : glmOf(filled.row(i).transpose()));
+    result.push_back(sheet.contacts[i].value_or(glmOf(filled.row(i).transpose())));
   }
   return result;
 }

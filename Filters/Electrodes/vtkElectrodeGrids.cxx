@@ -204,16 +204,16 @@ struct vtkElectrodeGrids::State
       result.array = number;
       result.row = static_cast<int>(k) / array.columns + 1;
       result.column = static_cast<int>(k) % array.columns + 1;
-      result.isMissing = !array.contacts[k];
-      result.measured =
-        result.isMissing ? places[k].bent : this->Contacts[*array.contacts[k]].position;
-      if (result.isMissing)
+      if (const std::optional<std::size_t> contact = array.contacts[k])
       {
-        this->Results.push_back(result);
+        result.measured = this->Contacts[*contact].position;
+        this->Results[*contact] = result;
       }
       else
       {
-        this->Results[*array.contacts[k]] = result;
+        result.isMissing = true;
+        result.measured = places[k].bent;
+        this->Results.push_back(result);
       }
     }
   }

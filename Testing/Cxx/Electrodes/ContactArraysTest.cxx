@@ -28,9 +28,11 @@ std::vector<Contact> gridOfShape(const GridShape& shape, const std::string& pref
   const Sag sag = sagAt({ 1.0, 0.1, 0.6 }, 8.0, 10.0, seed);
   const LaidGrid grid = laidGrid(shape, sag, 0.3 * seed, { 4.0, -3.0 }, NoiseMm, seed);
   std::vector<Contact> contacts;
-  for (std::size_t k = 0; k < grid.sheet.contacts.size(); ++k)
+  contacts.reserve(grid.sheet.contacts.size());
+  for (const std::optional<glm::dvec3>& position : grid.sheet.contacts)
   {
-    contacts.push_back({ *grid.sheet.contacts[k], numbered(prefix, static_cast<int>(k) + 1), "" });
+    const int number = static_cast<int>(contacts.size()) + 1;
+    contacts.push_back({ position.value_or(glm::dvec3(0.0)), numbered(prefix, number), "" });
   }
   return contacts;
 }
@@ -38,6 +40,7 @@ std::vector<Contact> gridOfShape(const GridShape& shape, const std::string& pref
 std::vector<Contact> shaft(const std::string& prefix, int count, double pitchMm)
 {
   std::vector<Contact> contacts;
+  contacts.reserve(count);
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0.0, 0.2);
   const glm::dvec3 along = glm::normalize(glm::dvec3(-1.0, 0.2, 0.1));
@@ -91,7 +94,8 @@ TEST_P(ContactArraysOf, FindsShapePitchAndOrderInAnyOrderOfTheList)
   for (std::size_t k = 0; k < array.contacts.size(); ++k)
   {
     ASSERT_TRUE(array.contacts[k]);
-    EXPECT_EQ(contacts[*array.contacts[k]].label, numbered("LTG", static_cast<int>(k) + 1));
+    const std::size_t contact = array.contacts[k].value_or(0);
+    EXPECT_EQ(contacts[contact].label, numbered("LTG", static_cast<int>(k) + 1));
   }
 }
 
@@ -135,7 +139,7 @@ TEST_P(ContactArraysOf, FindsTheOrderInPositionsIfLabelsAreShuffled)
   for (std::size_t k = 0; k < array.contacts.size(); ++k)
   {
     ASSERT_TRUE(array.contacts[k]);
-    places[*array.contacts[k]] = static_cast<int>(k);
+    places[array.contacts[k].value_or(0)] = static_cast<int>(k);
   }
   for (int i = 0; i + 1 < shape.columns; ++i)
   {
@@ -322,11 +326,14 @@ TEST(ContactArrays, DoubtRowsAndColumnsThatAreNotAsFarApart)
   std::mt19937 random(16);
   std::normal_distribution<double> noise(0.0, NoiseMm);
   std::vector<Contact> contacts;
+  contacts.reserve(32);
   for (int k = 0; k < 32; ++k)
   {
-    contacts.push_back({ glm::dvec3(10.0 * (k % 8) + noise(random), 8.0 * (k / 8) + noise(random),
-                           0.3 * (k % 8) * (k % 8)),
-      numbered("G", k + 1), "" });
+    const int row = k / 8;
+    const int column = k % 8;
+    const glm::dvec3 position(
+      10.0 * column + noise(random), 8.0 * row + noise(random), 0.3 * column * column);
+    contacts.push_back({ position, numbered("G", k + 1), "" });
   }
   const ContactArray array = recogniseArrays(contacts).front();
   EXPECT_EQ(array.columns, 8);

@@ -86,12 +86,12 @@ Fit fitOf(
   measured.anchors = anchors;
   for (std::size_t k = 0; k < sheet.contacts.size(); ++k)
   {
-    if (sheet.contacts[k])
+    if (const std::optional<glm::dvec3>& contact = sheet.contacts[k])
     {
-      measured.traces.push_back(*sheet.contacts[k]);
+      measured.traces.push_back(*contact);
       if (!rest.empty())
       {
-        measured.landmarks.push_back({ rest[k], *sheet.contacts[k] });
+        measured.landmarks.push_back({ rest[k], *contact });
       }
     }
   }
@@ -125,6 +125,7 @@ void judge(const Patient& patient, const std::set<int>& left, Figures& figures)
   const std::vector<SurfacePoint> anchors = patient.anchors(sheet);
   const std::vector<SheetPlace> places = fitSheets({ sheet }, onCortex, anchors).front();
   std::vector<glm::dvec3> rest;
+  rest.reserve(places.size());
   for (const SheetPlace& place : places)
   {
     rest.push_back(place.rest);
@@ -253,8 +254,9 @@ TEST(SheetFit, SaysWhichContactsAreNotOnTheCortex)
   const Patient patient({ 8, 8, 10.0 }, 1);
   Sheet sheet = patient.grid.sheet;
   const glm::dvec3 up = WavyCortex::nearest(patient.grid.rest[20]).normal;
-  *sheet.contacts[20] += 4.0 * up;
-  *sheet.contacts[45] -= 4.0 * WavyCortex::nearest(patient.grid.rest[45]).normal;
+  const glm::dvec3 down = -WavyCortex::nearest(patient.grid.rest[45]).normal;
+  sheet.contacts[20] = sheet.contacts[20].value_or(glm::dvec3(0.0)) + 4.0 * up;
+  sheet.contacts[45] = sheet.contacts[45].value_or(glm::dvec3(0.0)) + 4.0 * down;
   const std::vector<SheetPlace> places =
     fitSheets({ sheet }, onCortex, patient.anchors(sheet)).front();
   EXPECT_NEAR(places[20].outside, 4.0, 1.2);

@@ -203,8 +203,9 @@ inline LaidGrid laidGrid(const GridShape& shape, const Sag& sag, double turn,
   const int count = shape.rows * shape.columns;
   for (int k = 0; k < count; ++k)
   {
+    const int row = k / shape.columns;
     const double x = shape.pitchMm * (k % shape.columns - 0.5 * (shape.columns - 1)) + aside.x;
-    const double y = shape.pitchMm * (k / shape.columns - 0.5 * (shape.rows - 1)) + aside.y;
+    const double y = shape.pitchMm * (row - 0.5 * (shape.rows - 1)) + aside.y;
     grid.bent.push_back(under.onBentCortex(sag.centre + x * u + y * v));
   }
   for (int step = 0; step < 250; ++step)
