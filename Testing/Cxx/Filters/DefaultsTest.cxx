@@ -128,6 +128,7 @@ TEST(Defaults, OfElectrodeGridsLiveInTheClass)
     { "OpeningCentre", { centre[0], centre[1], centre[2] } },
     { "OpeningRadius", { filter->GetOpeningRadius() } },
     { "ShowMissing", { double(filter->GetShowMissing()) } },
+    { "PointAxes", { double(filter->GetPointAxes()) } },
     { "Stiffness", { filter->GetStiffness() } },
     { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
     { "Threshold", { filter->GetThreshold() } },
