@@ -333,11 +333,10 @@ def electrodes(contacts, cortex, deformation=None, threshold=None, label=None, a
     active = simple.GetActiveSource()
     surface = _mesh(cortex) if isinstance(cortex, tuple) else cortex
     made = simple.PolyPointSource(registrationName="Contacts", Points=positions.ravel().tolist())
-    opened = _opening(opening)
     source = simple.ElectrodeGrids(
         registrationName="Contacts At Rest", Input=made, Cortex=surface, Stiffness=float(stiffness),
         ContactDeviation=float(noise), ShowMissing=1, ContactNames=names, **described,
-        **opened, **_cortex(threshold, label, array, None), **_point_axes(contacts))
+        **_opening(opening), **_cortex(threshold, label, array, None), **_point_axes(contacts))
     try:
         source.UpdatePipeline()
         problem = reason_of(source)
