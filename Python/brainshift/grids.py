@@ -44,7 +44,7 @@ class Electrodes:
       the cortex slides little: the contacts do not show it.
     - `leave_one_out`: N distances of the contacts from where all others predict them; NaN likewise
     - `row`, `column`: N integers from 1 on; 0 for a contact with no place on a grid
-    - `label`: N names or numbers of the regions at `rest`, if labels were given; else empty
+    - `label`: N numbers, as text, of the regions at `rest`, if labels were given; else empty
     - `missing`: a dict from the label of each contact that a grid lacks to its predicted position
       in the rest frame and in the measured frame, two arrays of 3 numbers
     - `fit`: the `Fit`, or `None`
@@ -102,7 +102,7 @@ class Electrodes:
         - `name`: path of the file on this machine. `_electrodes.tsv` is BIDS, with
           `_coordsystem.json` beside it; `.mrk.json` are markups of Slicer; `.csv` and `.tsv` are
           tables with all figures. All are RAS mm, except markups, which are LPS as Slicer
-          writes them.
+          writes them. Contacts whose axes are not known count as RAS.
 
         A BIDS table has the position at rest of each contact, its electrode as `group`, its kind as
         `type` and its shape as `dimension`.
@@ -264,7 +264,7 @@ def _mesh(cortex):
 
 
 def _regions(atlas, rest):
-    """The label of an image at each position; its name if the image says one."""
+    """The label of an image at each position, a number as text; n/a outside of the image."""
     from paraview import servermanager
 
     image = servermanager.Fetch(atlas)

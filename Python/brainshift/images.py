@@ -57,7 +57,8 @@ class Labels:
             raise ValueError("the image has no array of one component")
         values = vtk_to_numpy(scalars).reshape(sides[::-1])
         inside = numpy.isin(values, list(labels)) if len(labels) else values > 0
-        self.inside = inside.astype(numpy.float32)
+        self._padded = numpy.pad(inside.astype(numpy.float32), 1)  # for each of many `fractions`
+        self.inside = self._padded[1:-1, 1:-1, 1:-1]
         matrix = image.GetIndexToPhysicalMatrix()
         self.world = numpy.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
         first = numpy.array(image.GetExtent()[::2]) + (0.5 if in_cells else 0.0)
@@ -115,8 +116,7 @@ class Labels:
         last = numpy.array(self.inside.shape[::-1]) - 1
         within = ((places > -1.0) & (places < last + 1.0)).all(axis=1)
         result = numpy.zeros(len(places))
-        padded = numpy.pad(self.inside, 1)
-        result[within] = interpolated(padded, places[within] + 1.0)
+        result[within] = interpolated(self._padded, places[within] + 1.0)
         return result
 
     def image(self, values, low=(0, 0, 0)):
