@@ -6,7 +6,7 @@ import csv
 import json
 import os
 
-from .files import reason_of
+from .files import _write, reason_of
 from .fitting import _cortex, _names, _opening, _point_axes, _points, fit
 from .points import Points, read_points
 from .views import world_axes
@@ -202,15 +202,28 @@ def _save_bids(found, name):
 
 
 def _save_markups(found, name):
-    points = [{"id": str(i + 1), "label": found.names[i], "positionStatus": "defined",
-               "position": [-float(at[0]), -float(at[1]), float(at[2])]}
-              for i, at in enumerate(found.rest)]
-    schema = ("https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/"
-              "Resources/Schema/markups-schema-v1.0.3.json#")
-    markups = {"@schema": schema, "markups": [
-        {"type": "Fiducial", "coordinateSystem": "LPS", "coordinateUnits": "mm",
-         "controlPoints": points}]}
-    _write_whole(name, lambda file: json.dump(markups, file, indent=1))
+    """By the writer of landmarks: points with their labels."""
+    import numpy
+    from paraview import servermanager, simple
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+    data, points, labels = vtkPolyData(), vtkPoints(), vtkStringArray()
+    points.SetData(numpy_to_vtk(numpy.ascontiguousarray(found.rest, float), deep=True))
+    labels.SetName("Label")
+    for label in found.names:
+        labels.InsertNextValue(label)
+    data.SetPoints(points)
+    data.GetPointData().AddArray(labels)
+    active = simple.GetActiveSource()
+    source = simple.TrivialProducer()
+    try:
+        source.GetClientSideObject().SetOutput(data)
+        _write(servermanager.writers.LandmarkWriter(Input=source, FileName=name), name)
+    finally:
+        simple.Delete(source)
+        simple.SetActiveSource(active)
 
 
 def _bids_shapes(name):
