@@ -94,6 +94,7 @@ void BrainShiftBehavior::onStartup()
   new brainshift::KeptColors(this);
   new brainshift::RevivedViews(this);
   new brainshift::UndoneLayouts(this);
+  new brainshift::WaitingEditors(this);
   new brainshift::ComparisonLegend(this);
   new brainshift::EvidenceSwitch(this);
   this->Hand = new brainshift::ToolCarrier(this);

@@ -8,6 +8,9 @@
 
 #include <vtkSMViewLayoutProxy.h>
 
+#include <QCoreApplication>
+#include <QEvent>
+
 namespace brainshift
 {
 namespace
@@ -49,5 +52,22 @@ UndoneLayouts::UndoneLayouts(QObject* parent)
   follow(core->getUndoStack(), this);
   QObject::connect(core, &pqApplicationCore::undoStackChanged, this,
     [this](pqUndoStack* stack) { follow(stack, this); });
+}
+
+WaitingEditors::WaitingEditors(QObject* parent)
+  : QObject(parent)
+{
+  qApp->installEventFilter(this);
+}
+
+// ParaView's own timers alone. One whose event is not delivered runs on, and comes again.
+bool WaitingEditors::eventFilter(QObject* watched, QEvent* event)
+{
+  if (event->type() != QEvent::Timer || !watched->inherits("pqTimer"))
+  {
+    return false;
+  }
+  const pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
+  return stack && (stack->getInUndo() || stack->getInRedo());
 }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Layouts of views after undo and redo.
+/// Layouts of views during and after undo and redo.
 #ifndef BrainShift_UndoneLayouts_h
 #define BrainShift_UndoneLayouts_h
 
@@ -18,6 +18,20 @@ class UndoneLayouts : public QObject
 public:
   /// Follows the undo stack of the application until it is deleted.
   explicit UndoneLayouts(QObject* parent = nullptr);
+};
+
+/// Lets ParaView's editors wait for the end of an undo or a redo. A layout that it brings back
+/// works off events in the middle of it. An editor whose timer ends then writes what it showed
+/// before, for example the old opacities of a map whose colours are the new ones.
+class WaitingEditors : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// Watches the events of the application until it is deleted.
+  explicit WaitingEditors(QObject* parent = nullptr);
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
 };
 }
 

@@ -10,8 +10,9 @@ import gc
 
 import brainshift
 import test_hand as hand
+import walk_files
 import window_testing as window
-from brainshift_testing import ball, picture, volume
+from brainshift_testing import ball, picture, scratch, volume
 from paraview import servermanager, simple
 
 COLORS = "ComparisonColors"
@@ -180,9 +181,55 @@ def trace():
     hand.create_filter_of_two("TraceDistance", scene["trace"], "Deformation", scene["bent"])
 
 
+def opened(file):
+    hand.open_file(file)
+    hand.wait(300)
+    assert hand.click("Accept")
+    hand.wait(800)
+    return simple.GetActiveSource()
+
+
+def close_views():
+    for view in simple.GetRenderViews():
+        hand.close_view(view)
+    hand.wait(300)
+    hand.new_layout()
+    hand.wait(500)
+
+
+def opacities_are_done_again():
+    """A filter gives a map that no view shows any more the look of another volume. Redo brings a
+    layout back with it, in the middle of which ParaView's editor of opacities wants to write."""
+    hand.reset_session()
+    heads = walk_files.write(scratch("heads"))[0]
+    hand.send_dialogs_away()  # but for the choice of a reader
+    opened(next(file for file in heads if file.endswith(".mha")))
+    head = opened(next(file for file in heads if file.endswith(".mgz")))
+    close_views()
+    hand.select(head)
+    hand.wait(200)
+    hand.create_filter("FreeFormDeformation")
+    hand.wait(100)
+    assert hand.click("Accept")
+    hand.wait(800)
+    shown = simple.GetRepresentation(simple.GetActiveSource(), simple.GetActiveView())
+    colors, opacities = shown.LookupTable, shown.ScalarOpacityFunction
+    before = list(colors.RGBPoints), list(opacities.Points)
+    for action in ("Undo", "Undo"):
+        window.action(action)
+        hand.wait(50)
+    undone = list(colors.RGBPoints), list(opacities.Points)
+    assert undone[0] != before[0] and undone[1] != before[1], "the map was another volume's"
+    for action in ("Redo", "Redo"):
+        window.action(action)
+        hand.wait(50)
+    hand.wait(300)
+    assert (list(colors.RGBPoints), list(opacities.Points)) == before
+
+
 window.main("UndoOfDisplays", [
     (set_up,), (two_choices, "Deformed Slices", "SliceComparison", "None", "Two colours"),
     (two_choices, "Deformed Volume", "VolumeComparison", "Off", "Two colours"),
     (in_four_views,), (begin_anew,), (undo_what_apply_showed, compare, "Show comparison"),
     (begin_anew,), (undo_what_apply_showed, trace, "Show distances"), (colors_that_are_gone,),
-    (kept_picture,)])
+    (kept_picture,), (opacities_are_done_again,)])
