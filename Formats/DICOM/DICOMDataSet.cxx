@@ -148,9 +148,9 @@ private:
       return false;
     }
     const DICOMTag group = head.tag >> 16;
-    if (group == 0x0002 && form.depth == 0)
+    if ((group == 0x0000 || group == 0x0002) && form.depth == 0)
     {
-      return false; // the group of the file stands first (PS3.10, 7.1): its first tag is damaged
+      return false; // commands are in no file, and the group of the file is first (PS3.10, 7.1)
     }
     const bool isPublic = group % 2 == 0;
     const bool isKept = isPublic

@@ -308,6 +308,8 @@ def test_a_damaged_file_is_refused_and_nothing_is_lost():
             "a length": (replaced(scan, "length", (1057, b"\xe8")), "is damaged at byte 1058",
                          "of 42834", "its length is wrong"),
             "the first tag": (replaced(scan, "tag", (133, b"\xff")), "is damaged at byte 1"),
+            "a command": (replaced(scan, "command", (content.index(b"\x08\0\x05\0CS"), b"\0")),
+                          "is damaged at byte"),
             "no study": (replaced(scan, "study", (study + 2, b"\x0c")), "has no study (0020,000D)"),
             "a byte": (replaced(scan, "byte", (content.index(b"ISO_IR 100") + 4, b"\0")),
                        "has the byte 0 in its attribute (0008,0005)", "in ASCII (CS)"),
