@@ -9,6 +9,7 @@
 #include <pqUndoStack.h>
 
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMProxySelectionModel.h>
 #include <vtkSMSourceProxy.h>
 
 #include <QPointer>
@@ -16,6 +17,18 @@
 
 namespace brainshift
 {
+namespace
+{
+// pqActiveObjects keeps what is selected where it is told to select nothing.
+void selectNothing()
+{
+  if (auto selected = pqActiveObjects::instance().activeSourcesSelectionModel())
+  {
+    selected->Select(nullptr, vtkSMProxySelectionModel::CLEAR);
+  }
+}
+}
+
 KeptSelection::KeptSelection(QObject* parent)
   : QObject(parent)
 {
@@ -23,6 +36,13 @@ KeptSelection::KeptSelection(QObject* parent)
   const auto keep = [this](pqPipelineSource*, pqPipelineSource* consumer) { this->keep(consumer); };
   this->connect(model, &pqServerManagerModel::preConnectionAdded, this, keep);
   this->connect(model, &pqServerManagerModel::preConnectionRemoved, this, keep);
+  this->connect(model, &pqServerManagerModel::aboutToRemoveServer, this, [this, model] {
+    // Connected last, so that it comes after all lists.
+    this->Dropping =
+      this->connect(model, &pqServerManagerModel::sourceRemoved, this, selectNothing);
+  });
+  this->connect(model, &pqServerManagerModel::serverRemoved, this,
+    [this] { QObject::disconnect(this->Dropping); });
 }
 
 // Later, when the pipeline browser has moved the filter. A later selection is kept.

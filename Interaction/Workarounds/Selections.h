@@ -18,6 +18,9 @@ namespace brainshift
 /// Keeps a filter selected while its inputs change. ParaView's pipeline browser moves a filter that
 /// gets a second input to another branch, or back, and drops it from the selection. Then
 /// all filters in menus and toolbars are greyed out.
+///
+/// And selects nothing while a session is removed: ParaView's lists select an output of a source at
+/// each removal of another, and its action Delete then crashes where the source itself is gone.
 class KeptSelection : public QObject
 {
   Q_OBJECT
@@ -28,6 +31,8 @@ public:
 
 private:
   void keep(pqPipelineSource* consumer);
+
+  QMetaObject::Connection Dropping; ///< While a session is removed.
 };
 
 /// Switches off the display of a selection while nothing is selected. ParaView updates that display

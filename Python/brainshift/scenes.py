@@ -9,7 +9,7 @@ from .figures import _pixels, _scale, _strength_kept
 from .images import Labels, fetched
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
-from .views import (PLANES, WORLDS, _first_array, _look, _make_grey, _show_slice, _slice_view,
+from .views import (PLANES, WORLDS, _first_array, _look, _make_grey, _show_slice, _without_depth,
                     world_axes)
 
 #: Fraction of the colours of labels over a slice.
@@ -22,15 +22,36 @@ _TRACE_COLORS = (-1, 0.48, 0, 0.75, -0.25, 0.75, 0.35, 1, 0, 1, 1, 1,
 _TRACE_SCALE_MM = 6.0
 
 
+def _hidden_view():
+    """A view that no window shows. The render windows of ParaView's own window draw only where they
+    are seen: a picture of a new one would be what its memory held."""
+    from paraview import servermanager
+    from paraview.modules.vtkRemotingViews import vtkPVView
+
+    was_in_window = vtkPVView.GetUseGenericOpenGLRenderWindow()
+    vtkPVView.SetUseGenericOpenGLRenderWindow(False)
+    try:
+        proxy = servermanager.ProxyManager().NewProxy("views", "RenderView")
+        servermanager.ParaViewPipelineController().InitializeProxy(proxy)
+    finally:
+        vtkPVView.SetUseGenericOpenGLRenderWindow(was_in_window)
+    window = proxy.GetRenderWindow()
+    window.SetOffScreenRendering(True)
+    window.SetShowWindow(False)
+    return servermanager._getPyProxy(proxy)
+
+
 @contextlib.contextmanager
 def _own_view(view):
-    """A view that is deleted afterwards; the active source and view stay."""
+    """A view that is deleted afterwards with what it shows."""
     from paraview import simple
 
     try:
         yield view
     finally:
-        simple.Delete(view)
+        for shown in list(view.Representations):
+            simple.Delete(shown)
+        view.Representations = []
 
 
 @contextlib.contextmanager
@@ -48,9 +69,8 @@ def nothing_else_changes():
 
 
 def _volume_view(size):
-    from paraview import simple
-
-    view = simple.CreateView("RenderView", ViewSize=list(size))
+    view = _hidden_view()
+    view.ViewSize = list(size)
     view.UseColorPaletteForBackground = 0
     view.BackgroundColorMode = "Single Color"
     view.Background = [0.0, 0.0, 0.0]
@@ -151,7 +171,7 @@ class _Slice:
 
     def __init__(self, case, plane, position, size):
         self.case, self.plane, self.size = case, plane, size
-        self.view = _slice_view(plane)
+        self.view = _without_depth(_hidden_view())
         self.view.ViewSize = list(size)
         coloring = _first_array(case.bent)
         self.display = _show_slice(case.bent, self.view, plane, coloring)

@@ -123,6 +123,11 @@ def _slice_view(plane):
 
     view = simple.CreateView("RenderView")
     simple.RenameView(plane.capitalize(), view)
+    return _without_depth(view)
+
+
+def _without_depth(view):
+    """A view as one of slices."""
     view.UseColorPaletteForBackground = 0
     view.BackgroundColorMode = "Single Color"
     view.Background = [0.0, 0.0, 0.0]
