@@ -19,6 +19,7 @@ enum class Command
   Undo, ///< ParaView does it.
   Redo, ///< ParaView does it.
   RecordTrace,
+  ShowCase,
   DragTissue, ///< Or a control point.
   Select,     ///< Selects a control point, or pins tissue.
   ChangeRadius,

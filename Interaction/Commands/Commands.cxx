@@ -53,6 +53,8 @@ std::vector<CommandRow> windowRows()
     byKey(Command::RecordTrace, Scope::Window, { Qt::Key_T },
       QT_TRANSLATE_NOOP("BrainShift",
         "While a pointer is connected: record a trace as long as the key is held down.")),
+    byKey(Command::ShowCase, Scope::Window, { Qt::ALT | Qt::Key_0 },
+      QT_TRANSLATE_NOOP("BrainShift", "Show the dock Case. Press the key again to hide it.")),
     byKey(Command::Undo, Scope::Window, { Qt::CTRL | Qt::Key_Z },
       QT_TRANSLATE_NOOP("BrainShift", "Undo the last edit. Each stroke is one edit.")),
     byKey(Command::Redo, Scope::Window, { Qt::CTRL | Qt::Key_Y },

@@ -122,6 +122,8 @@ QString percent(double fraction)
   return figure(100.0 * fraction, 0);
 }
 
+}
+
 QString refineProgress(const RefineFigures& figures)
 {
   return RefinePane::tr(
@@ -170,7 +172,6 @@ QString refineWarning(const RefineFigures& figures)
                .arg(figure(*figures.smallestDeterminant));
   }
   return lines.join(' ');
-}
 }
 
 RefinePane::RefinePane(pqPipelineSource* deformation, QWidget* parent)

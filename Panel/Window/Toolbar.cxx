@@ -10,6 +10,7 @@
 #include "Interaction/Views/Flicker.h"
 #include "Interaction/Workarounds/QuietMessages.h"
 #include "Interaction/Workarounds/StopReading.h"
+#include "Panel/Case/CaseDock.h"
 #include "Panel/Tools/LookChoice.h"
 #include "Panel/Window/StatusLine.h"
 
@@ -35,6 +36,7 @@ Toolbar::Toolbar(QWidget* mainWindow)
   this->addFlicker();
   this->addLooks();
   this->addPointer();
+  this->addCase();
   for (QAction* action : this->actions()) // buttons are named like actions, for tests to press
   {
     if (!action->isSeparator())
@@ -145,6 +147,23 @@ void Toolbar::addPointer()
     {
       dock->setVisible(!dock->isVisible());
       dock->raise();
+    }
+  });
+}
+
+void Toolbar::addCase()
+{
+  QAction* action = this->addAction(QIcon(":/BrainShift/case.svg"), tr("Case"));
+  action->setObjectName("actionBrainShiftCase");
+  action->setToolTip(
+    tr("Case: show or hide the dock with the files of a patient and the steps from "
+       "there to a report (%1).")
+      .arg(keysText(rowOf(Command::ShowCase))));
+  action->setShortcut(shortcutOf(Command::ShowCase));
+  this->connect(action, &QAction::triggered, this, [this] {
+    if (auto dock = this->window()->findChild<CaseDock*>())
+    {
+      dock->toggle();
     }
   });
 }

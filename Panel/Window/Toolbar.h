@@ -29,6 +29,7 @@ private:
   void addFlicker();
   void addLooks();
   void addPointer();
+  void addCase();
   void followPipeline();
   void follow(StrokeEditor* editor);
   void refresh();

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A case: files or sources by their roles, and the pipeline that they make."""
 
+import itertools
 import json
 import os
 import uuid
@@ -8,13 +9,16 @@ import uuid
 from .arguments import positive, vector
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
-from .roles import ROLES, column_sets, ending, landmark_columns, open_file, proposed
+from .roles import ROLES, ending, holds_both, landmark_columns, open_file, proposed
 from .steps import Steps
 
 #: Annotations of proxies, which state files keep: `MARK` + role + "." + name of the case, `SETTING`
 #: + name, at the Free-Form Deformation, a setting as JSON, and `OPENED` is at sources that a case
 #: opened itself.
 MARK, SETTING, OPENED = "BrainShift.Case.", "BrainShift.CaseSetting.", "BrainShift.CaseOpened"
+
+#: Roles that points have. All others are volumes.
+POINT_ROLES = ("traces", "landmarks", "measured", "electrodes")
 
 #: Parts of the pipeline that a case makes, beside the sources of its roles.
 _MADE = ("trace_distance", "contact_distance", "comparison", "joined", "bent")
@@ -25,6 +29,15 @@ def _proxies():
     from paraview import simple
 
     return list(simple.GetSources().values())
+
+
+def _free_name(name):
+    """A name that no source of the pipeline has."""
+    from paraview import simple
+
+    taken = {known for known, _ in simple.GetSources()}
+    others = (f"{name} {number}" for number in itertools.count(2))
+    return next(each for each in itertools.chain([name], others) if each not in taken)
 
 
 def _stem(source):
@@ -40,11 +53,28 @@ def _stem(source):
     return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or "volume"
 
 
-def _opened(path, **properties):
+def _opened(path, role, **properties):
     """A source of a file that the case deletes when it has no role any more."""
+    from paraview import simple
+
     source = open_file(path, **properties)
+    try:
+        _require_kind(source, role)
+    except ValueError:
+        simple.Delete(source)
+        raise
     source.SMProxy.SetAnnotation(OPENED, "1")
     return source
+
+
+def _require_kind(source, role):
+    """Raises `ValueError` if the data of a source cannot have a role."""
+    source.UpdatePipeline()
+    kind, wanted = (("vtkPointSet", "points") if role in POINT_ROLES else
+                    ("vtkImageData", "a volume"))
+    if not source.GetDataInformation().DataSetTypeIsA(kind):
+        data = source.GetDataInformation().GetPrettyDataTypeString()
+        raise ValueError(f"{role} must be {wanted}; {_stem(source)} is {data}")
 
 
 def _marks(source):
@@ -52,6 +82,14 @@ def _marks(source):
     proxy = source.SMProxy
     keys = [proxy.GetAnnotationKeyAt(i) for i in range(proxy.GetNumberOfAnnotations())]
     return [tuple(key[len(MARK):].split(".")) for key in keys if key.startswith(MARK)]
+
+
+def _settings_at(bent):
+    """The settings of a case that its Free-Form Deformation keeps."""
+    proxy = bent.SMProxy
+    keys = [proxy.GetAnnotationKeyAt(i) for i in range(proxy.GetNumberOfAnnotations())]
+    return {key[len(SETTING):]: json.loads(proxy.GetAnnotation(key)) for key in keys
+            if key.startswith(SETTING)}
 
 
 def _values(source):
@@ -289,6 +327,14 @@ class Case(Steps):
 
     # Parts ------------------------------------------------------------------------------------
 
+    name = property(lambda self: self._name, doc="Tells cases apart. State files keep it.")
+
+    def __eq__(self, other):
+        return isinstance(other, Case) and self._name == other._name
+
+    def __hash__(self):
+        return hash(self._name)
+
     def part(self, role):
         """The source with a role, or a made part of the pipeline; None if there is none.
 
@@ -320,13 +366,15 @@ class Case(Steps):
 
     def _setting(self, name, default=None):
         bent, key = self.bent, SETTING + name
-        if bent is not None and bent.SMProxy.HasAnnotation(key):
-            return json.loads(bent.SMProxy.GetAnnotation(key))
-        return self._settings.get(name, default)
+        if bent is None:
+            return self._settings.get(name, default)
+        return (json.loads(bent.SMProxy.GetAnnotation(key)) if bent.SMProxy.HasAnnotation(key)
+                else default)
 
     def _keep(self, name, value):
-        self._settings[name] = value
-        if self.bent is not None:
+        if self.bent is None:
+            self._settings[name] = value
+        else:  # alone, for undo takes it back there
             self.bent.SMProxy.SetAnnotation(SETTING + name, json.dumps(value))
 
     def _role(self, role):
@@ -354,29 +402,33 @@ class Case(Steps):
             self._take("measured", measured, "measured landmarks")
         else:
             names = {"traces": "traced points", "electrodes": "contacts"}
-            source = _opened(value) if isinstance(value, (str, os.PathLike)) else value
+            source = self._source_of(value, role)
             self._take(role, source, names.get(role))
             if role == "opening":
                 self._keep("opening_ball", None)
         self._wire()
 
     @staticmethod
+    def _source_of(value, role):
+        """The source of a role: a file is opened."""
+        if isinstance(value, (str, os.PathLike)):
+            return _opened(value, role)
+        if value is not None:
+            _require_kind(value, role)
+        return value
+
+    @staticmethod
     def _landmark_pair(value):
         """Sources of the landmarks at rest and measured."""
-        if value is None:
-            return None, None
-        if isinstance(value, (str, os.PathLike)):
+        if isinstance(value, (str, os.PathLike)) and os.path.isfile(value) and holds_both(value):
             path = os.fspath(value)
             if ending(path) == ".tag":
-                return _opened(path), _opened(path, Volume=2)
-            sets = column_sets(path) if ending(path) in (".csv", ".tsv") else []
-            if len(sets) != 2:
-                return _opened(path), None
-            return tuple(_opened(path, PositionColumns=columns)
+                return _opened(path, "landmarks"), _opened(path, "measured", Volume=2)
+            return tuple(_opened(path, "landmarks", PositionColumns=columns)
                          for columns in landmark_columns(path))
-        rest, measured = value
-        return tuple(_opened(one) if isinstance(one, (str, os.PathLike)) else one
-                     for one in (rest, measured))
+        pair = value if isinstance(value, (tuple, list)) else (value, None)
+        return tuple(Case._source_of(one, role)
+                     for one, role in zip(pair, ("landmarks", "measured")))
 
     def _forget(self, role, keep=None):
         """Takes a role from its source, unless that is the one to keep."""
@@ -392,9 +444,9 @@ class Case(Steps):
 
         self._forget(role, keep=source)
         if source is not None:
+            if source.SMProxy.HasAnnotation(OPENED) and not _marks(source):  # it is new
+                simple.RenameSource(_free_name(name or _stem(source)), source)
             source.SMProxy.SetAnnotation(self._key(role), "1")
-            if source.SMProxy.HasAnnotation(OPENED):
-                simple.RenameSource(name or _stem(source), source)
 
     def _delete_loose(self):
         """Deletes sources of former roles that nothing uses."""
@@ -418,7 +470,7 @@ class Case(Steps):
                 simple.Delete(source)
             return None
         if source is None:
-            source = getattr(simple, kind)(registrationName=name, **inputs)
+            source = getattr(simple, kind)(registrationName=_free_name(name), **inputs)
             source.SMProxy.SetAnnotation(self._key(part), "1")
             return source
         self._set(source, inputs)
@@ -429,14 +481,16 @@ class Case(Steps):
         """Makes the pipeline agree with roles and settings. Nothing that agrees is touched."""
         volume = self.volume
         name = _stem(volume) if volume else ""
+        former = self.bent
         if volume is None:
+            if former is not None:
+                self._settings = _settings_at(former)
             for part in ("fit", *_MADE):
                 self._made(part, "", "", Input=None)
         bent = self._made("bent", "FreeFormDeformation", f"{name} bent", Input=volume)
         if bent is not None:
-            for key, value in self._settings.items():
-                if not bent.SMProxy.HasAnnotation(SETTING + key):  # another Case may have set it
-                    bent.SMProxy.SetAnnotation(SETTING + key, json.dumps(value))
+            for key, value in self._settings.items() if former is None else ():
+                bent.SMProxy.SetAnnotation(SETTING + key, json.dumps(value))
             self._limit(bent)
             fit = self.fit_source()
             if fit is not None and fit.SMProxy.HasAnnotation(self._key("fit")):
@@ -548,7 +602,7 @@ class Case(Steps):
         base = former.Base if is_kind(former, "FitDeformation") else former
         values = {name: value for name, value in self._measurements().items() if value is not None}
         source = own(simple.FitDeformation(
-            registrationName="fit", Input=bent.Input, **_shared(bent), **values,
+            registrationName=_free_name("fit"), Input=bent.Input, **_shared(bent), **values,
             **({"Base": base} if base else {})))
         source.UpdatePipeline()
         problem = reason_of(source)

@@ -118,20 +118,25 @@ def landmark_columns(path):
     return sets if first <= second else sets[::-1]
 
 
-def _points_role(path):
-    """The role of a file of points, and why; None if nothing says one."""
+def holds_both(path):
+    """Whether a file of landmarks has the positions at rest and the measured ones: why, or an empty
+    text."""
     if ending(path) == ".tag":
         with open(path, encoding="utf-8", errors="replace") as file:
-            if re.search(r"Volumes\s*=\s*2", file.read(4096)):
-                return "landmarks", "it has the points of two volumes"
-    is_table = ending(path) in (".csv", ".tsv")
-    sets = column_sets(path) if is_table else []
-    if len(sets) == 2:
-        return "landmarks", "it has two sets of positions"
+            is_pair = re.search(r"Volumes\s*=\s*2", file.read(4096))
+            return "it has the points of two volumes" if is_pair else ""
+    is_pair = ending(path) in (".csv", ".tsv") and len(column_sets(path)) == 2
+    return "it has two sets of positions" if is_pair else ""
+
+
+def _points_role(path):
+    """The role of a file of points, and why; None if nothing says one."""
+    if holds_both(path):
+        return "landmarks", holds_both(path)
     role, reason = _by_words(path, _POINT_WORDS)
-    if role or not is_table:
+    if role or ending(path) not in (".csv", ".tsv"):
         return role, reason
-    return ("traces", "it is a table of positions") if sets else (None, "")
+    return ("traces", "it is a table of positions") if column_sets(path) else (None, "")
 
 
 def _labels_role(path):
@@ -190,15 +195,18 @@ def _role_of(path):
     return (role, reason) if role else _labels_role(path)
 
 
-def proposed(folder):
-    """What each file of a folder may be: a list of Proposed, the role None where nothing says one.
+def proposed(paths):
+    """What each of some files may be: a list of Proposed, the role None where nothing says one.
 
     A role is given once, to the first file in the order of names; `reason` says what spoke for it,
-    or who has the role already.
+    or who has the role already. `paths`: a folder, whose files count, or a list of files and
+    folders of DICOM.
     """
+    if isinstance(paths, str):
+        paths = [os.path.join(paths, name) for name in os.listdir(paths)]
     found, taken = [], {}
-    for name in sorted(os.listdir(folder)):
-        path = os.path.join(folder, name)
+    for path in sorted(paths):
+        name = os.path.basename(os.path.normpath(path))
         is_aside = any(word in name.lower() for word in _ASIDE)
         if name.startswith(".") or is_aside or not (ending(path) or _is_series(path)):
             continue

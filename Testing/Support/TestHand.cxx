@@ -141,13 +141,13 @@ TEST_HAND_EXPORT void test_hand_key(int key, int press, int modifiers)
 }
 
 // `key`: Qt::Key, pressed and let go where the active view is: a shortcut of the window hears it.
-TEST_HAND_EXPORT void test_hand_shortcut(int key)
+TEST_HAND_EXPORT void test_hand_shortcut(int key, int modifiers)
 {
   if (QWidget* widget = viewWidget())
   {
     widget->window()->activateWindow();
     QApplication::setActiveWindow(widget->window()); // without a window manager nobody else does
-    QTest::keyClick(widget, Qt::Key(key));
+    QTest::keyClick(widget, Qt::Key(key), Qt::KeyboardModifiers(modifiers));
   }
 }
 

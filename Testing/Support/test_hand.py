@@ -9,7 +9,7 @@ import time
 
 from paraview import simple
 
-SHIFT, CONTROL = 0x02000000, 0x04000000  # Qt::KeyboardModifiers
+SHIFT, CONTROL, ALT = 0x02000000, 0x04000000, 0x08000000  # Qt::KeyboardModifiers
 ESCAPE, PAGE_UP, PAGE_DOWN = 0x01000000, 0x01000016, 0x01000017  # Qt::Key; letters: their codes
 _MOVE, _PRESS, _RELEASE, _DOUBLE_CLICK = 0, 1, 2, 3
 
@@ -24,6 +24,8 @@ _library.test_hand_cell.restype = ctypes.c_char_p
 _library.test_hand_controls.restype = ctypes.c_char_p
 _library.test_hand_messages.restype = ctypes.c_char_p
 _library.test_hand_field.restype = ctypes.c_char_p
+_library.test_hand_entries.restype = ctypes.c_char_p
+_library.test_hand_answered.restype = ctypes.c_char_p
 _library.test_hand_window.restype = ctypes.c_ulonglong
 _library.test_hand_dialogs.restype = ctypes.c_char_p
 _library.test_hand_seen_views.restype = ctypes.c_char_p
@@ -124,9 +126,9 @@ def tap(key, modifiers=0):
     key_up(key, modifiers)
 
 
-def shortcut(letter):
+def shortcut(letter, modifiers=0):
     """Types a letter that is a shortcut of the window."""
-    _library.test_hand_shortcut(ord(letter.upper()))
+    _library.test_hand_shortcut(ord(letter.upper()), modifiers)
 
 
 def is_checked(name):
@@ -203,6 +205,42 @@ def choose(name, entry):
     chosen = bool(_library.test_hand_choose(name.encode(), entry.encode()))
     wait(100)
     return chosen
+
+
+def entries(name):
+    """The present entry of a list of the window, and all of them."""
+    present, *every = _library.test_hand_entries(name.encode()).decode().split("\n")
+    return present, every
+
+
+def choose_by_keys(name, entry):
+    """Opens a list of the window and chooses by Down or Up, and Enter; False if it has no such
+    entry."""
+    chosen = bool(_library.test_hand_choose_by_keys(name.encode(), entry.encode()))
+    wait(100)
+    return chosen
+
+
+def drop(name, *paths):
+    """Drops files onto a widget; whether it takes them."""
+    return bool(_library.test_hand_drop(name.encode(), "\n".join(paths).encode()))
+
+
+def answer(dialog, button, choose=("", "")):
+    """Answers a dialog as soon as it is seen: chooses in a list of it, and presses a button."""
+    _library.test_hand_answer(
+        dialog.encode(), choose[0].encode(), choose[1].encode(), button.encode())
+
+
+def answer_path(dialog, path):
+    """Chooses a path in a file dialog as soon as it is seen."""
+    _library.test_hand_answer_path(dialog.encode(), path.encode())
+
+
+def answered():
+    """The rows of the table of the dialog that was answered last: lists of texts."""
+    lines = _library.test_hand_answered().decode().split("\n")
+    return [line.split("\t") for line in lines if line]
 
 
 def type_into(name, text):

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Cases/CaseOrders.h"
+
+#include "Interaction/Cases/PythonCall.h"
+#include "Interaction/Commands/Application.h"
+#include "Interaction/Edits/RefineEditor.h"
+#include "Interaction/Edits/StrokeEditor.h"
+
+#include <pqPipelineSource.h>
+#include <pqServer.h>
+
+#include <QCoreApplication>
+#include <QCursor>
+#include <QEventLoop>
+#include <QGuiApplication>
+#include <QJsonDocument>
+#include <QScopedValueRollback>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int QuietMs = 250; // without a change, before the case is asked again
+
+// While Python works, which takes seconds for a fit.
+class Waiting
+{
+public:
+  Waiting() { QGuiApplication::setOverrideCursor(Qt::WaitCursor); }
+  ~Waiting() { QGuiApplication::restoreOverrideCursor(); }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+};
+}
+
+CaseOrders::CaseOrders(QObject* parent)
+  : QObject(parent)
+{
+  this->Soon.setSingleShot(true);
+  this->Soon.setInterval(QuietMs);
+  this->connect(&this->Soon, &QTimer::timeout, this, &CaseOrders::refresh);
+  pqServerManagerModel* model = serverManagerModel();
+  const auto soon = [this] { this->refreshSoon(); };
+  this->connect(model, &pqServerManagerModel::sourceAdded, this, soon);
+  this->connect(model, &pqServerManagerModel::sourceRemoved, this, soon);
+  this->connect(model, &pqServerManagerModel::nameChanged, this, soon);
+  this->connect(model, &pqServerManagerModel::dataUpdated, this, soon);
+  this->connect(model, &pqServerManagerModel::serverAdded, this, soon);
+  this->connect(model, &pqServerManagerModel::serverRemoved, this, soon);
+  if (pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack())
+  {
+    this->connect(stack, &pqUndoStack::stackChanged, this, soon); // what has no source changed, too
+  }
+}
+
+void CaseOrders::report(const QString& problem)
+{
+  this->Problem = problem;
+  Q_EMIT this->changed();
+}
+
+void CaseOrders::setWatched(bool on)
+{
+  this->Watched = on;
+  this->refreshSoon();
+}
+
+void CaseOrders::give(const QString& order, const QJsonObject& arguments, const QString& label)
+{
+  {
+    const Waiting cursor;
+    if (label.isEmpty())
+    {
+      SCOPED_UNDO_EXCLUDE();
+      this->ask(order, arguments);
+    }
+    else
+    {
+      SCOPED_UNDO_SET(label);
+      this->ask(order, arguments);
+      // What the window does next to a new display belongs to the step.
+      QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents);
+    }
+  }
+  pqApplicationCore::instance()->render();
+  Q_EMIT this->changed();
+}
+
+QJsonArray CaseOrders::sorted(const QStringList& paths)
+{
+  const Waiting cursor;
+  SCOPED_UNDO_EXCLUDE();
+  const bool isFolder = paths.size() == 1;
+  const QJsonValue asked =
+    isFolder ? QJsonValue(paths.first()) : QJsonValue(QJsonArray::fromStringList(paths));
+  return this->ask("sort", { { "paths", asked } }).toArray();
+}
+
+QJsonValue CaseOrders::ask(const QString& order, const QJsonObject& arguments)
+{
+  const QScopedValueRollback<bool> asking(this->Asking, true);
+  const QJsonObject asked{ { "order", order }, { "with", arguments } };
+  const auto answer = callPython(
+    "brainshift.dock", "answer", QJsonDocument(asked).toJson(QJsonDocument::Compact).toStdString());
+  if (!answer)
+  {
+    this->Problem = tr("Python's module brainshift cannot be used here. The Output Messages have "
+                       "the reason.");
+    return {};
+  }
+  const QJsonObject told = QJsonDocument::fromJson(QByteArray::fromStdString(*answer)).object();
+  if (order != "tell") // which is none of the user's
+  {
+    this->Problem = told["problem"].toString();
+  }
+  if (told["told"].isObject())
+  {
+    this->Told = told["told"].toObject();
+  }
+  return told["told"];
+}
+
+pqPipelineSource* CaseOrders::source(const char* key) const
+{
+  const auto number = static_cast<vtkTypeUInt32>(this->Told[QLatin1String(key)].toInt());
+  return number == 0 ? nullptr : serverManagerModel()->findItem<pqPipelineSource*>(number);
+}
+
+void CaseOrders::refreshSoon()
+{
+  if (this->Watched && !this->Asking)
+  {
+    this->Soon.start();
+  }
+}
+
+bool CaseOrders::isBusy() const
+{
+  if (serverManagerModel()->findItems<pqServer*>().isEmpty())
+  {
+    return true; // between two sessions
+  }
+  pqPipelineSource* deformation = this->bent();
+  const bool edits = deformation &&
+    (StrokeEditor::of(deformation)->isEditing() || RefineEditor::of(deformation)->isActive());
+  return edits || isReplayed() || pqApplicationCore::instance()->isLoadingState();
+}
+
+void CaseOrders::refresh()
+{
+  if (!this->Watched)
+  {
+    return;
+  }
+  if (this->isBusy())
+  {
+    this->Soon.start();
+    return;
+  }
+  {
+    SCOPED_UNDO_EXCLUDE();
+    this->ask("tell", {});
+  }
+  Q_EMIT this->changed();
+}
+}

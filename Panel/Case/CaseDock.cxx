@@ -1,0 +1,446 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Case/CaseDock.h"
+
+#include "Interaction/Cases/CaseOrders.h"
+#include "Interaction/Commands/Application.h"
+#include "Interaction/Commands/Tools.h"
+#include "Interaction/Edits/RefineEditor.h"
+#include "Panel/Case/CaseSettings.h"
+#include "Panel/Case/ProposalDialog.h"
+#include "Panel/Case/RoleBox.h"
+#include "Panel/Case/StepRows.h"
+#include "Panel/Parts/Advice.h"
+#include "Panel/Parts/MillimetreField.h"
+#include "Panel/Registered/PaneParts.h"
+#include "Panel/Registered/RefinePane.h"
+
+#include <pqActiveObjects.h>
+#include <pqCoreConfiguration.h>
+#include <pqCoreUtilities.h>
+#include <pqFileDialog.h>
+#include <pqPipelineSource.h>
+#include <pqSettings.h>
+
+#include <vtkPVSession.h>
+
+#include <QAction>
+#include <QComboBox>
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QFormLayout>
+#include <QGroupBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMainWindow>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSignalBlocker>
+#include <QStringList>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace brainshift
+{
+namespace
+{
+constexpr const char* VisibleSetting = "BrainShift/Case/Visible";
+
+constexpr std::array<const char*, 4> SphereNames{ "X", "Y", "Z", "Radius" };
+
+// Order, and what the window calls them: dock.py tells the same, but only once it was asked.
+constexpr std::array<const char*, 10> Roles{ "volume", "brain", "tumour", "traces", "opening",
+  "landmarks", "measured", "electrodes", "reference", "cavity" };
+
+QPushButton* makePush(const char* name, const QString& text, const QString& tip)
+{
+  auto button = new QPushButton(text);
+  button->setObjectName(name);
+  button->setToolTip(tip);
+  return button;
+}
+
+// A heading, and the layout under it.
+QVBoxLayout* addGroup(QVBoxLayout* layout, const QString& title)
+{
+  auto group = new QGroupBox(title);
+  layout->addWidget(group);
+  return new QVBoxLayout(group);
+}
+
+// Whether ParaView was started to show or do something certain, or its user has met the dock.
+bool isAtHome()
+{
+  const auto start = pqCoreConfiguration::instance();
+  return pqApplicationCore::instance()->settings()->contains(VisibleSetting) ||
+    !start->pythonScript().empty() || !start->stateFileName().empty() ||
+    !start->dataFileNames().empty() || start->testScriptCount() > 0;
+}
+
+QString chosenPath(const QString& title, const char* name, pqFileDialog::FileMode mode)
+{
+  pqFileDialog dialog(nullptr, pqCoreUtilities::mainWidget(), title, QString(),
+    mode == pqFileDialog::Directory ? QString() : CaseDock::tr("Web pages (*.html)"));
+  dialog.setObjectName(name);
+  dialog.setFileMode(mode, vtkPVSession::CLIENT);
+  const bool chosen = dialog.exec() == QDialog::Accepted && !dialog.getSelectedFiles().isEmpty();
+  return chosen ? dialog.getSelectedFiles().first() : QString();
+}
+}
+
+CaseDock::CaseDock(QWidget* parent)
+  : QDockWidget(tr("Case"), parent)
+  , Orders(new CaseOrders(this))
+{
+  this->setObjectName("BrainShiftCaseDock");
+  this->setAcceptDrops(true);
+  auto content = new QWidget;
+  auto layout = new QVBoxLayout(content);
+  this->addCases(layout);
+  this->addRoles(layout);
+  this->addSteps(layout);
+  layout->addStretch(1);
+  auto scroll = new QScrollArea;
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(content);
+  this->setWidget(scroll);
+  this->connect(this->Orders, &CaseOrders::changed, this, &CaseDock::showState);
+  this->connect(this, &QDockWidget::visibilityChanged, this->Orders, &CaseOrders::setWatched);
+  QTimer::singleShot(0, this, &CaseDock::settle); // once ParaView has placed it
+}
+
+void CaseDock::settle()
+{
+  auto window = qobject_cast<QMainWindow*>(this->window());
+  auto properties = window ? window->findChild<QDockWidget*>("propertiesDock") : nullptr;
+  const bool wasShown =
+    pqApplicationCore::instance()->settings()->value(VisibleSetting, false).toBool();
+  const bool isFirst = !isAtHome();
+  if (properties)
+  {
+    window->tabifyDockWidget(properties, this);
+    properties->raise();
+  }
+  this->setVisible(wasShown || isFirst);
+  if (isFirst)
+  {
+    this->raise();
+  }
+  this->connect(this->toggleViewAction(), &QAction::toggled, this,
+    [](bool on) { pqApplicationCore::instance()->settings()->setValue(VisibleSetting, on); });
+}
+
+void CaseDock::toggle()
+{
+  const bool isInFront = this->isVisible() && !this->visibleRegion().isEmpty();
+  this->setVisible(!isInFront);
+  if (!isInFront)
+  {
+    this->raise();
+    this->Boxes[Roles.front()]->setFocus(Qt::ShortcutFocusReason);
+  }
+}
+
+void CaseDock::addCases(QVBoxLayout* layout)
+{
+  auto row = new QHBoxLayout;
+  layout->addLayout(row);
+  auto folder = makePush("BrainShiftCaseFolder", tr("Open Folder..."),
+    tr("Sort the files of a folder into roles, and show them for correction. You can also drop a "
+       "folder or files on this dock."));
+  this->connect(folder, &QPushButton::clicked, this, &CaseDock::openFolder);
+  row->addWidget(folder);
+  auto begin = makePush("BrainShiftCaseNew", tr("New Case"),
+    tr("Begin another case. The present one stays in the pipeline."));
+  this->connect(
+    begin, &QPushButton::clicked, this, [this] { this->Orders->give("begin", {}, QString()); });
+  row->addWidget(begin);
+  row->addStretch(1);
+  this->Cases = new QComboBox;
+  this->Cases->setObjectName("BrainShiftCases");
+  this->Cases->setAccessibleName(tr("Case"));
+  this->Cases->setToolTip(tr("The case that this dock shows."));
+  this->connect(this->Cases, &QComboBox::activated, this, [this](int index) {
+    this->Orders->give(
+      "select", { { "name", this->Cases->itemData(index).toString() } }, QString());
+  });
+  layout->addWidget(this->Cases);
+}
+
+void CaseDock::addRoles(QVBoxLayout* layout)
+{
+  QVBoxLayout* group = addGroup(layout, tr("What is known"));
+  auto form = new QFormLayout;
+  group->addLayout(form);
+  for (const char* role : Roles)
+  {
+    auto box = new RoleBox(role);
+    QString name(role);
+    name[0] = name[0].toUpper();
+    box->setObjectName("BrainShiftCase" + name);
+    this->Boxes[role] = box;
+    this->connect(box, &RoleBox::sourceChosen, this,
+      [this, role](int number) { this->choose(role, { { "source", number } }); });
+    this->connect(box, &RoleBox::fileChosen, this,
+      [this, role](const QString& path) { this->choose(role, { { "path", path } }); });
+    this->connect(box, &RoleBox::sphereChosen, this,
+      [this] { this->Orders->give("sphere", {}, tr("Choose Opening")); });
+    form->addRow(name, box);
+    if (this->Boxes.size() == 5) // the opening
+    {
+      this->addSphere(group);
+      form->addRow(this->Sphere);
+    }
+  }
+  this->Settings = new CaseSettings;
+  group->addWidget(this->Settings);
+  this->connect(this->Settings, &CaseSettings::edited, this,
+    [this](const QString& name, const QJsonValue& value, const QString& label) {
+      this->Orders->give("set", { { "name", name }, { "value", value } }, tr("Set %1").arg(label));
+    });
+  this->connect(this->Settings, &CaseSettings::refused, this->Orders, &CaseOrders::report);
+}
+
+void CaseDock::addSphere(QVBoxLayout*)
+{
+  this->Sphere = new QWidget;
+  this->Sphere->setObjectName("BrainShiftCaseSphere");
+  auto row = new QHBoxLayout(this->Sphere);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(new QLabel(tr("Centre, radius (mm)")), 1);
+  for (const char* name : SphereNames)
+  {
+    auto field = new MillimetreField(
+      QString("BrainShiftCaseSphere%1").arg(name), qstrcmp(name, "Radius") == 0 ? 0.0 : -1e9);
+    field->setAccessibleName(tr("Opening, %1 (mm)").arg(name));
+    field->setToolTip(
+      tr("Centre and radius (mm) of the opening. They begin as a sphere around the traces."));
+    this->SphereFields.append(field);
+    row->addWidget(field);
+    this->connect(field, &MillimetreField::valueEdited, this, [this] {
+      QJsonArray numbers;
+      for (const MillimetreField* each : this->SphereFields)
+      {
+        numbers.append(each->value());
+      }
+      this->Orders->give("sphere", { { "numbers", numbers } }, tr("Set Opening"));
+    });
+  }
+}
+
+void CaseDock::addSteps(QVBoxLayout* layout)
+{
+  this->Problem = new QLabel;
+  this->Problem->setObjectName("BrainShiftCaseProblem");
+  this->Problem->setWordWrap(true);
+  this->Problem->setTextFormat(Qt::PlainText);
+  this->Problem->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  QPalette palette = this->palette();
+  palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette, false));
+  this->Problem->setPalette(palette);
+  layout->addWidget(this->Problem);
+  QVBoxLayout* group = addGroup(layout, tr("Steps"));
+  this->Steps = new StepRows;
+  group->addWidget(this->Steps);
+  this->connect(this->Steps, &StepRows::pressed, this, &CaseDock::run);
+  auto note = new QLabel(tr("Research software, not a medical device."));
+  note->setWordWrap(true);
+  note->setEnabled(false);
+  layout->addWidget(note);
+}
+
+void CaseDock::choose(const QString& role, const QJsonObject& what)
+{
+  QJsonObject arguments = what;
+  arguments["role"] = role;
+  this->Orders->give("choose", arguments, tr("Choose %1").arg(this->Boxes[role]->accessibleName()));
+}
+
+void CaseDock::openFolder()
+{
+  const QString folder =
+    chosenPath(tr("Folder of a case"), "BrainShiftCaseFolderDialog", pqFileDialog::Directory);
+  if (!folder.isEmpty())
+  {
+    this->propose({ folder });
+  }
+}
+
+void CaseDock::propose(const QStringList& paths)
+{
+  const QJsonArray proposal = this->Orders->sorted(paths);
+  if (proposal.isEmpty())
+  {
+    this->Orders->report(this->Orders->problem().isEmpty()
+        ? tr("%1 has no volumes or points that can be opened.").arg(paths.join(", "))
+        : this->Orders->problem());
+    return;
+  }
+  ProposalDialog dialog(
+    pqCoreUtilities::mainWidget(), proposal, this->Orders->told()["roles"].toArray());
+  if (dialog.exec() == QDialog::Accepted)
+  {
+    this->Orders->give("accept", { { "roles", dialog.accepted() } }, tr("Open Case"));
+  }
+}
+
+void CaseDock::dragEnterEvent(QDragEnterEvent* event)
+{
+  if (!pathsOf(event->mimeData()).isEmpty())
+  {
+    event->acceptProposedAction();
+  }
+}
+
+// Later: the program that the files come from waits for the end of the drop.
+void CaseDock::dropEvent(QDropEvent* event)
+{
+  event->acceptProposedAction();
+  QTimer::singleShot(0, this, [this, paths = pathsOf(event->mimeData())] { this->propose(paths); });
+}
+
+void CaseDock::run(const QString& step)
+{
+  const bool changesPipeline = step == "Look" || step == "Measure" || step == "Fit";
+  if (step == "By hand")
+  {
+    this->runByHand();
+  }
+  else if (step == "Refine")
+  {
+    this->runRefine();
+  }
+  else if (step == "Export" || step == "Report")
+  {
+    this->writeTo(step);
+  }
+  else
+  {
+    this->Orders->give("run", { { "step", step } }, changesPipeline ? step : QString());
+  }
+}
+
+void CaseDock::runByHand()
+{
+  pqPipelineSource* bent = this->Orders->bent();
+  if (!bent)
+  {
+    return;
+  }
+  pqActiveObjects::instance().setActiveSource(bent);
+  const auto& tools = toolTable();
+  const auto easiest =
+    std::find_if(tools.rbegin(), tools.rend(), [](const ToolRow& row) { return row.lesson; });
+  ToolSettings::instance()->setTool(easiest == tools.rend() ? Tool::None : easiest->tool);
+  if (auto properties = this->window()->findChild<QDockWidget*>("propertiesDock"))
+  {
+    properties->show();
+    properties->raise();
+  }
+}
+
+void CaseDock::runRefine()
+{
+  RefineEditor* editor = RefineEditor::of(this->Orders->bent());
+  if (!editor)
+  {
+    return;
+  }
+  if (editor->isActive())
+  {
+    editor->stop();
+    return;
+  }
+  RefineSettings settings;
+  settings.reference = this->Orders->comparison();
+  editor->begin(settings);
+  this->showState();
+}
+
+void CaseDock::writeTo(const QString& step)
+{
+  const bool isFolder = step == "Export";
+  const QString path = isFolder
+    ? chosenPath(tr("Export into a folder"), "BrainShiftCaseExportDialog", pqFileDialog::Directory)
+    : chosenPath(tr("Write a report"), "BrainShiftCaseReportDialog", pqFileDialog::AnyFile);
+  if (!path.isEmpty())
+  {
+    this->Orders->give(
+      "run", { { "step", step }, { isFolder ? "folder" : "file", path } }, QString());
+  }
+}
+
+void CaseDock::showState()
+{
+  const QJsonObject& told = this->Orders->told();
+  const QJsonArray sphere = told["sphere"].toArray();
+  for (const QJsonValue role : told["roles"].toArray())
+  {
+    RoleBox* box = this->Boxes[role["role"].toString()];
+    box->setAccessibleName(role["label"].toString());
+    box->setToolTip(role["tip"].toString());
+    box->show(role.toObject(), box == this->Boxes["opening"] && !sphere.isEmpty());
+  }
+  this->Sphere->setVisible(!sphere.isEmpty());
+  for (int i = 0; i < sphere.size(); ++i)
+  {
+    this->SphereFields[i]->setValue(sphere[i].toDouble());
+  }
+  this->Settings->show(told["settings"].toObject());
+  this->Steps->show(told["steps"].toArray());
+  this->showRefine();
+  this->Problem->setText(this->Orders->problem());
+  this->Problem->setVisible(!this->Orders->problem().isEmpty());
+  const QSignalBlocker quiet(this->Cases);
+  this->Cases->clear();
+  const QJsonArray cases = told["cases"].toArray();
+  for (const QJsonValue each : cases)
+  {
+    this->Cases->addItem(each[1].toString(), each[0].toString());
+  }
+  if (this->Cases->findData(told["case"].toString()) < 0)
+  {
+    this->Cases->addItem(tr("New case"), told["case"].toString());
+  }
+  this->Cases->setCurrentIndex(this->Cases->findData(told["case"].toString()));
+  this->Cases->setVisible(this->Cases->count() > 1);
+}
+
+// What only the editor knows: the progress of a run, its checks, and why it failed.
+void CaseDock::showRefine()
+{
+  RefineEditor* editor = RefineEditor::of(this->Orders->bent());
+  if (editor && editor != this->Watched)
+  {
+    this->Watched = editor;
+    this->connect(editor, &RefineEditor::changed, this, &CaseDock::showRefine);
+    this->connect(editor, &QObject::destroyed, this,
+      [this, editor] { this->Watched = this->Watched == editor ? nullptr : this->Watched; });
+  }
+  if (!editor || (editor->costs().isEmpty() && editor->problem().isEmpty()))
+  {
+    return;
+  }
+  const RefineFigures& figures = editor->figures();
+  if (editor->isActive())
+  {
+    this->Steps->showInstead("Refine", refineProgress(figures), tr("Stop"));
+    return;
+  }
+  const bool wasKept = editor->state() != LiveRun::State::Idle && figures.steps > 0;
+  QStringList lines{ editor->problem() };
+  if (wasKept)
+  {
+    lines += refineResult(
+      editor->state() == LiveRun::State::Kept ? tr("Stopped") : tr("Finished"), figures);
+    lines += refineWarning(figures);
+  }
+  lines.removeAll(QString());
+  this->Steps->showInstead("Refine", lines.join(' '), tr("Refine"));
+}
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// The dock "Case": what is known of a patient, by roles, and the steps from there to a report. It
+/// opens where ParaView starts with this computer's user for the first time, and by its key.
+#ifndef BrainShift_CaseDock_h
+#define BrainShift_CaseDock_h
+
+#include <QDockWidget>
+#include <QMap>
+#include <QStringList>
+
+class QComboBox;
+class QJsonObject;
+class QLabel;
+class QVBoxLayout;
+
+namespace brainshift
+{
+class CaseOrders;
+class CaseSettings;
+class MillimetreField;
+class RefineEditor;
+class RoleBox;
+class StepRows;
+
+class CaseDock : public QDockWidget
+{
+  Q_OBJECT
+
+public:
+  explicit CaseDock(QWidget* parent);
+
+  /// Shows the dock at the front, or hides it if it is there.
+  void toggle();
+  /// Proposes roles for files, or those of one folder, and takes them over if the user agrees.
+  void propose(const QStringList& paths);
+
+protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+private:
+  void addCases(QVBoxLayout* layout);
+  void addRoles(QVBoxLayout* layout);
+  void addSphere(QVBoxLayout* layout);
+  void addSteps(QVBoxLayout* layout);
+  void openFolder();
+  /// Tabs the dock with the panel Properties, and shows it where nobody has used it yet.
+  void settle();
+  void run(const QString& step);
+  void runByHand();
+  void runRefine();
+  void writeTo(const QString& step);
+  void showState();
+  void showRefine();
+  void choose(const QString& role, const QJsonObject& what);
+
+  CaseOrders* Orders;
+  QComboBox* Cases = nullptr;
+  QMap<QString, RoleBox*> Boxes; ///< by role
+  QWidget* Sphere = nullptr;
+  QList<MillimetreField*> SphereFields; ///< centre and radius, mm
+  CaseSettings* Settings = nullptr;
+  StepRows* Steps = nullptr;
+  QLabel* Problem = nullptr;
+  RefineEditor* Watched = nullptr; ///< its signals are connected
+};
+}
+
+#endif

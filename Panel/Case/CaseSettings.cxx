@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Case/CaseSettings.h"
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QJsonArray>
+#include <QJsonObject>
+#include <QLineEdit>
+#include <QRegularExpression>
+#include <QSignalBlocker>
+#include <QStringList>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double MostGrowth = 100.0; // mm
+
+QString nameOfField(const QString& setting)
+{
+  return "BrainShiftCase_" + setting;
+}
+
+QString textOf(const QJsonValue& value)
+{
+  QStringList parts;
+  for (const QJsonValue label : value.toArray())
+  {
+    parts.append(QString::number(label.toInt()));
+  }
+  return value.isArray() ? parts.join(", ")
+    : value.isDouble()   ? QString::number(value.toDouble(), 'g', 10)
+                         : QString();
+}
+
+void showIn(QWidget* field, const QJsonValue& value)
+{
+  const QSignalBlocker quiet(field);
+  if (auto check = qobject_cast<QCheckBox*>(field))
+  {
+    check->setChecked(value.toBool());
+  }
+  else if (auto number = qobject_cast<QDoubleSpinBox*>(field))
+  {
+    number->setValue(value.toDouble());
+  }
+  else if (auto text = qobject_cast<QLineEdit*>(field))
+  {
+    text->setText(textOf(value));
+  }
+}
+}
+
+CaseSettings::CaseSettings()
+  : Form(new QFormLayout(this))
+{
+  this->Form->setContentsMargins(0, 0, 0, 0);
+  this->addLevel();
+  this->addLabels("brain_labels", tr("Label of the brain"),
+    tr("The label that counts as brain. Empty: all above 0."));
+  this->addCheck("holds_outside", tr("Hold tissue outside the brain"),
+    tr("Only the brain moves; skull and skin stay."));
+  this->addGrowth();
+  this->addLabels("tumour_labels", tr("Labels of the tumour"),
+    tr("The labels that count as tumour, with commas between. Empty: all above 0."));
+  this->addLabels("cavity_labels", tr("Labels of the cavity"),
+    tr("The labels that count as cavity, with commas between. Empty: all above 0."));
+  this->addCheck("landmarks_judge", tr("Landmarks judge only"),
+    tr("The fit does not use the landmarks, so that they judge it."));
+}
+
+void CaseSettings::addField(
+  const QString& name, const QString& label, const QString& tip, QWidget* field)
+{
+  field->setObjectName(nameOfField(name));
+  field->setAccessibleName(label);
+  field->setToolTip(tip);
+  field->setFocusPolicy(Qt::StrongFocus);
+  this->Fields[name] = field;
+  if (qobject_cast<QCheckBox*>(field))
+  {
+    this->Form->addRow(field);
+  }
+  else
+  {
+    this->Form->addRow(label, field);
+  }
+}
+
+void CaseSettings::addCheck(const QString& name, const QString& label, const QString& tip)
+{
+  auto field = new QCheckBox(label);
+  this->connect(field, &QCheckBox::toggled, this,
+    [this, name, label](bool on) { Q_EMIT this->edited(name, on, label); });
+  this->addField(name, label, tip, field);
+}
+
+void CaseSettings::addLabels(const QString& name, const QString& label, const QString& tip)
+{
+  auto field = new QLineEdit;
+  field->setPlaceholderText(tr("all above 0"));
+  this->connect(field, &QLineEdit::editingFinished, this, [this, field, name, label] {
+    if (!field->isModified())
+    {
+      return;
+    }
+    field->setModified(false);
+    static const QRegularExpression between("[\\s,;]+");
+    QJsonArray labels;
+    for (const QString& part : field->text().split(between, Qt::SkipEmptyParts))
+    {
+      bool isWhole = false;
+      labels.append(part.toInt(&isWhole));
+      if (!isWhole)
+      {
+        Q_EMIT this->refused(tr("%1: \"%2\" is no whole number.").arg(label, part));
+        return;
+      }
+    }
+    Q_EMIT this->edited(name, labels, label);
+  });
+  this->addField(name, label, tip, field);
+}
+
+void CaseSettings::addLevel()
+{
+  auto field = new QLineEdit;
+  const QString label = tr("Surface level");
+  this->connect(field, &QLineEdit::editingFinished, this, [this, field, label] {
+    if (!field->isModified())
+    {
+      return;
+    }
+    field->setModified(false);
+    const QString text = field->text().trimmed();
+    bool isNumber = false;
+    const double level = text.toDouble(&isNumber);
+    if (!isNumber && !text.isEmpty())
+    {
+      Q_EMIT this->refused(tr("%1: \"%2\" is no number.").arg(label, text));
+      return;
+    }
+    Q_EMIT this->edited("surface_level", text.isEmpty() ? QJsonValue() : QJsonValue(level), label);
+  });
+  this->addField("surface_level", label,
+    tr("Scalar of the volume at the cortex. It is needed only where there is no brain."), field);
+}
+
+void CaseSettings::addGrowth()
+{
+  auto field = new QDoubleSpinBox;
+  field->setRange(-1.0, MostGrowth);
+  field->setDecimals(1);
+  field->setSuffix(tr(" mm"));
+  field->setSpecialValueText(tr("as the feather"));
+  field->setKeyboardTracking(false);
+  const QString label = tr("Brain grows by");
+  this->connect(field, &QDoubleSpinBox::valueChanged, this, [this, label](double value) {
+    Q_EMIT this->edited("mask_growth", value < 0.0 ? -1.0 : value, label);
+  });
+  this->addField("mask_growth", label,
+    tr("Distance (mm) by which the brain grows before displacements fade. \"As the feather\" lets "
+       "all of the brain move."),
+    field);
+}
+
+void CaseSettings::show(const QJsonObject& told)
+{
+  bool any = false;
+  for (auto field = this->Fields.cbegin(); field != this->Fields.cend(); ++field)
+  {
+    const QJsonObject setting = told[field.key()].toObject();
+    const bool shown = setting["shown"].toBool();
+    this->Form->setRowVisible(field.value(), shown);
+    any = any || shown;
+    if (!field.value()->hasFocus() || !qobject_cast<QLineEdit*>(field.value()))
+    {
+      showIn(field.value(), setting["value"]);
+    }
+  }
+  this->setVisible(any);
+}
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Case/StepRows.h"
+
+#include "Interaction/Commands/Application.h"
+#include "Panel/Parts/Advice.h"
+
+#include <QGridLayout>
+#include <QJsonArray>
+#include <QJsonObject>
+#include <QLabel>
+#include <QPushButton>
+
+namespace brainshift
+{
+namespace
+{
+enum Column
+{
+  ButtonColumn,
+  SignColumn,
+  TextColumn
+};
+
+struct Words
+{
+  QString label;
+  QString tip;
+};
+
+// Of a step as Python calls it.
+Words wordsOf(const QString& step)
+{
+  static const QMap<QString, Words> words{
+    { "Look",
+      { tr("Look"), tr("Show the bent volume with a preset, and the points on the cortex.") } },
+    { "Measure",
+      { tr("Measure"), tr("Show the distances of traces and electrodes to the cortex.") } },
+    { "Fit",
+      { tr("Fit"),
+        tr("Bend the volume by traces, electrodes and landmarks. The fit then follows the "
+           "roles.") } },
+    { "By hand",
+      { tr("By Hand"),
+        tr("Take a tool in hand to bend the volume in the view. The panel Properties has the "
+           "other tools and the list of strokes.") } },
+    { "Refine", { tr("Refine"), tr("Bend the volume until it matches the reference.") } },
+    { "Judge",
+      { tr("Judge"),
+        tr("Measure the errors at the landmarks: of those that the fit used, by leaving each "
+           "out.") } },
+    { "Export",
+      { tr("Export..."),
+        tr("Write the bent volume, its displacement field and the labels of the tumour into a "
+           "folder.") } },
+    { "Tumour left",
+      { tr("Tumour Left"), tr("Measure how much tumour is left after the resection.") } },
+    { "Report", { tr("Report..."), tr("Write a page with pictures and figures of the case.") } },
+  };
+  return words[step];
+}
+}
+
+StepRows::StepRows()
+  : Grid(new QGridLayout(this))
+{
+  this->setObjectName("BrainShiftCaseSteps");
+  this->Grid->setContentsMargins(0, 0, 0, 0);
+  this->Grid->setColumnStretch(TextColumn, 1);
+}
+
+StepRows::Row& StepRows::row(const QString& step)
+{
+  Row& row = this->Rows[step];
+  if (!row.button)
+  {
+    const int at = this->Grid->rowCount();
+    row.button = new QPushButton(wordsOf(step).label);
+    row.button->setObjectName("BrainShiftCase" + QString(step).remove(' '));
+    row.button->setToolTip(wordsOf(step).tip);
+    this->connect(
+      row.button, &QPushButton::clicked, this, [this, step] { Q_EMIT this->pressed(step); });
+    row.sign = new QLabel;
+    row.text = new QLabel;
+    row.text->setObjectName(row.button->objectName() + "Text");
+    row.text->setWordWrap(true);
+    row.text->setTextFormat(Qt::PlainText);
+    row.text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    this->Grid->addWidget(row.button, at, ButtonColumn, Qt::AlignTop);
+    this->Grid->addWidget(row.sign, at, SignColumn, Qt::AlignTop);
+    this->Grid->addWidget(row.text, at, TextColumn);
+  }
+  return row;
+}
+
+void StepRows::show(const QJsonArray& told)
+{
+  for (const QJsonValue step : told)
+  {
+    Row& row = this->row(step["name"].toString());
+    const QString lacks = step["lacks"].toString();
+    const bool isDone = step["state"].toString() == "done";
+    row.button->setText(wordsOf(step["name"].toString()).label);
+    row.button->setEnabled(lacks.isEmpty());
+    row.sign->setText(isDone ? QString(QChar(0x2713)) : QString());
+    QPalette palette = this->palette();
+    palette.setColor(QPalette::WindowText, gradeColor(Grade::Good, palette, false));
+    row.sign->setPalette(palette);
+    row.text->setText(
+      lacks.isEmpty() ? step["found"].toString() : StepRows::tr("Needs %1").arg(lacks));
+    row.text->setEnabled(lacks.isEmpty());
+  }
+}
+
+void StepRows::showInstead(const QString& step, const QString& text, const QString& button)
+{
+  Row& row = this->row(step);
+  row.text->setText(text);
+  row.text->setEnabled(true);
+  if (!button.isEmpty())
+  {
+    row.button->setText(button);
+    row.button->setEnabled(true);
+  }
+}
+}

@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The orders of the dock Case and what it shows, as JSON. The window calls `answer`.
+
+The window has one case in hand. An order changes it through `Case`, so a script and the dock do the
+same; after each order the whole case is told again, as `_told` describes.
+"""
+
+import json
+import traceback
+
+from .cases import POINT_ROLES, Case
+from .points import read_from
+from .roles import ROLES, holds_both, proposed
+
+#: What a role is called in the window, and what it is.
+_ROLES = {
+    "volume": ("Volume", "The volume before surgery, at rest. It is the one that is bent."),
+    "brain": ("Brain", "A mask or labels of the brain. It is the cortex of fits and distances, and "
+                       "tissue outside of it is held."),
+    "tumour": ("Tumour", "Labels of the tumour before surgery, in the frame of the volume."),
+    "traces": ("Traces", "Points that were traced on the cortex (mm)."),
+    "opening": ("Opening", "Where the skull is open: a mask, or a sphere. The fit holds the cortex "
+                           "only outside of it."),
+    "landmarks": ("Landmarks", "Landmarks at rest (mm). A file that has both positions of each "
+                               "landmark counts for both rows."),
+    "measured": ("Measured", "The same landmarks as measured during surgery (mm)."),
+    "electrodes": ("Electrodes", "Contacts that lie on the cortex (mm). They are fitted as traced "
+                                 "points are."),
+    "reference": ("Reference", "A volume from during or after surgery. The bent volume is compared "
+                               "with it, and refined by it."),
+    "cavity": ("Cavity", "A mask of the removed tissue, drawn in the reference."),
+}
+
+#: Filters whose images have no role.
+_RESULTS = ("FreeFormDeformation", "CompareVolumes", "FitDeformation", "RefinedLattice",
+            "DeformationLattice", "TraceDistance")
+
+#: Colours of points in a view that tell themselves apart for all eyes (Okabe and Ito).
+_ORANGE, _BLUE = (0.902, 0.624, 0.0), (0.0, 0.447, 0.698)
+
+#: Radius of an opening that nothing is known of, and the least one (mm).
+_RADIUS, _LEAST_RADIUS = 30.0, 10.0
+
+#: The case; the connection that it is of; the last case that the user began, which is kept while it
+#: is empty; the path of the last report; the cases by name, for they know what they found.
+_in_hand = {"case": None, "connection": None, "new": None, "report": "", "known": {}}
+
+
+def _cases():
+    """The cases of the session."""
+    return [_in_hand["known"].setdefault(case.name, case) for case in Case.all()]
+
+
+def _case():
+    """The case in hand: the former one, or one of the session, or a new one."""
+    from paraview import servermanager
+
+    connection = servermanager.ActiveConnection
+    case = _in_hand["case"] if _in_hand["connection"] is connection else None
+    known = _cases()
+    if known and case not in (*known, _in_hand["new"]):
+        case = known[0]
+    case = case or Case()
+    _in_hand["known"][case.name] = case
+    _in_hand.update(case=case, connection=connection)
+    return case
+
+
+def _source(number):
+    """The source with a proxy's number; None for 0 or if there is none."""
+    from paraview import simple
+
+    return next((source for source in simple.GetSources().values()
+                 if number and source.SMProxy.GetGlobalID() == number), None)
+
+
+def _name(source):
+    from paraview import servermanager
+
+    return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or "a source"
+
+
+def _number(source):
+    return source.SMProxy.GetGlobalID() if source else 0
+
+
+# What is told --------------------------------------------------------------------------------
+
+
+def _has_kind(source, role):
+    """Whether a source may have a role, as far as it was read."""
+    if source.SMProxy.GetXMLName() in _RESULTS:
+        return False
+    information = source.GetDataInformation()
+    return information.DataSetTypeIsA("vtkPointSet" if role in POINT_ROLES else "vtkImageData")
+
+
+def _told_roles(case):
+    """Of each role: name, label, tip, the number of its source or 0, and the sources that may have
+    it: pairs of number and name."""
+    from paraview import simple
+
+    sources = list(simple.GetSources().values())
+    for role, (label, tip) in _ROLES.items():
+        chosen = case.part(role)
+        choices = [source for source in sources
+                   if source == chosen or _has_kind(source, role)]
+        yield {"role": role, "label": label, "tip": tip, "chosen": _number(chosen),
+               "choices": [[_number(source), _name(source)] for source in choices]}
+
+
+def _told_settings(case):
+    """The settings: `shown` is whether one matters with the present roles."""
+    has_brain = case.brain is not None
+    points = case.traces is not None or case.electrodes is not None
+    shown = {
+        "surface_level": points and not has_brain,
+        "holds_outside": has_brain, "mask_growth": has_brain and case.holds_outside,
+        "brain_labels": has_brain, "tumour_labels": case.tumour is not None,
+        "cavity_labels": case.cavity is not None,
+        "landmarks_judge": all(case.landmarks or (None,))}
+    return {name: {"value": getattr(case, name), "shown": bool(on)} for name, on in shown.items()}
+
+
+def _told_steps(case):
+    steps = [step._asdict() for step in case.steps]
+    missing = [role for role in ("volume", "tumour", "cavity") if getattr(case, role) is None]
+    found = repr(case.resection).removeprefix("Resection: ") if case.resection else ""
+    steps.append({"name": "Tumour left", "lacks": ", ".join(f"a {role}" for role in missing),
+                  "found": found, "state": "lacks" if missing else "done" if found else "ready"})
+    lacks = "" if case.volume else "a volume"
+    steps.append({"name": "Report", "lacks": lacks, "found": _in_hand["report"],
+                  "state": "lacks" if lacks else "ready"})
+    return steps
+
+
+def _told(case):
+    """All that the dock shows: the cases, and of the case in hand roles, settings and steps."""
+    ball = case.opening_ball()
+    return {
+        "case": case.name, "cases": [[each.name, _label(each)] for each in _cases()],
+        "roles": list(_told_roles(case)), "settings": _told_settings(case),
+        "sphere": [*ball[0], ball[1]] if ball else [],
+        "steps": _told_steps(case), "bent": _number(case.bent),
+        "comparison": _number(case.comparison)}
+
+
+def _label(case):
+    """What a case is called: the name of its first source."""
+    return next((_name(case.part(role)) for role in ROLES if case.part(role)), "empty")
+
+
+# Orders --------------------------------------------------------------------------------------
+
+
+def _choose(case, role, source=0, path=""):
+    """Gives a role to a source or a file; neither takes it away."""
+    chosen = path or _source(source)
+    if source and chosen is None:
+        raise ValueError(f"{_ROLES[role][0]}: the source is gone")
+    if role in ("landmarks", "measured"):
+        _choose_landmarks(case, role, chosen)
+    else:
+        setattr(case, role, chosen)
+    if role == "volume" and case.bent is not None:
+        _look_first(case)
+
+
+def _choose_landmarks(case, role, chosen):
+    rest, measured = case.landmarks or (None, None)
+    path = chosen if isinstance(chosen, str) else getattr(chosen, "FileName", "")
+    if path and holds_both(path) and (isinstance(chosen, str) or not (rest and measured)):
+        case.landmarks = path
+        return
+    pair = (chosen, measured) if role == "landmarks" else (rest, chosen)
+    case.landmarks = pair if any(pair) else None
+
+
+def _set(case, name, value):
+    setattr(case, name, value)
+
+
+def _set_sphere(case, numbers=()):
+    """Sets centre and radius (mm) of the opening. Without them, a sphere around the points that
+    were traced, for they were traced in it; else one at the middle of the volume."""
+    case.opening = (tuple(numbers[:3]), numbers[3]) if numbers else _guessed_sphere(case)
+
+
+def _guessed_sphere(case):
+    import numpy
+
+    source = case.traces or case.electrodes
+    points = read_from(source).positions if source is not None else []
+    if len(points):
+        centre = numpy.mean(points, axis=0)
+        radius = max(_LEAST_RADIUS, numpy.linalg.norm(points - centre, axis=1).max())
+        return tuple(numpy.round(centre, 1).tolist()), round(float(radius), 1)
+    bounds = case.volume.GetDataInformation().GetBounds() if case.volume else [0.0] * 6
+    return tuple(round((bounds[i] + bounds[i + 1]) / 2, 1) for i in (0, 2, 4)), _RADIUS
+
+
+def _look_first(case):
+    """Shows the bent volume where nothing shows it yet, and lets the tools act on it."""
+    from paraview import simple
+
+    view = simple.GetActiveViewOrCreate("RenderView")
+    if simple.GetRepresentation(case.bent, view).Visibility == 0:
+        case.show(view)
+    simple.SetActiveSource(case.bent)
+
+
+def _show_points(source, view, color):
+    from paraview import simple
+
+    shown = simple.Show(source, view)
+    shown.SetRepresentationType("Points")
+    simple.ColorBy(shown, None)
+    shown.PointSize, shown.RenderPointsAsSpheres = 9.0, 1
+    shown.AmbientColor = shown.DiffuseColor = color
+
+
+def _look(case):
+    """Shows the bent volume with a look, and the points on the cortex."""
+    from paraview import simple
+
+    view = simple.GetActiveViewOrCreate("RenderView")
+    case.show(view)
+    for points, measure, color in ((case.traces, case.trace_distance, _ORANGE),
+                                   (case.electrodes, case.contact_distance, _BLUE)):
+        if points is not None and not (measure and _is_shown(measure, view)):
+            _show_points(points, view, color)
+    simple.SetActiveSource(case.bent)
+
+
+def _is_shown(source, view):
+    return any(getattr(shown, "Input", None) == source and shown.Visibility
+               for shown in view.Representations)
+
+
+def _measure(case):
+    """Shows the distances of the points, in place of the points."""
+    from paraview import simple
+
+    view = simple.GetActiveViewOrCreate("RenderView")
+    for points, measure in ((case.traces, case.trace_distance),
+                            (case.electrodes, case.contact_distance)):
+        if measure is not None:
+            simple.Hide(points, view)
+            simple.Show(measure, view)
+
+
+def _run(case, step, **settings):
+    if step == "Tumour left":
+        case.resect()
+    elif step == "Report":
+        from .reporting import report
+
+        _in_hand["report"] = report(case, **settings)
+    else:
+        case.run(step, **settings) if step not in ("Look", "Measure") else (
+            _look if step == "Look" else _measure)(case)
+
+
+def _accept(case, roles):
+    """Takes files over, by role."""
+    before = case.volume
+    for role in ROLES:
+        if roles.get(role):
+            setattr(case, role, roles[role])
+    if case.volume is not None and case.volume != before:
+        _look_first(case)
+
+
+def _select(case, name):
+    _in_hand["case"] = next((each for each in _cases() if each.name == name), case)
+
+
+def _begin(_):
+    case = Case()
+    _in_hand.update(case=case, new=case)
+    _in_hand["known"][case.name] = case
+
+
+def _sort(paths):
+    """What each of some files may be, or those of one folder: role, path, reason."""
+    return [[each.role or "", each.file, each.reason] for each in proposed(paths)]
+
+
+_ORDERS = {"choose": _choose, "set": _set, "sphere": _set_sphere, "run": _run, "accept": _accept,
+           "select": _select, "begin": _begin}
+
+
+def answer(text):
+    """Does an order, and tells what came of it. Both are JSON.
+
+    - `text`: `{"order": name, "with": arguments}`. The order `tell` changes nothing, and `sort`
+      tells only what files may be.
+
+    Returns `{"problem": sentence or "", "told": what _told or _sort returns}`.
+    """
+    asked = json.loads(text)
+    order, arguments = asked["order"], asked.get("with", {})
+    problem, told = "", None
+    try:
+        if order == "sort":
+            told = _sort(**arguments)
+        elif order != "tell":
+            _ORDERS[order](_case(), **arguments)
+    except (ValueError, OSError) as error:
+        problem = str(error)
+    except Exception as error:  # the window must not end; its output has where it was
+        traceback.print_exc()
+        problem = f"{type(error).__name__}: {error}"
+    if order != "sort":
+        try:
+            told = _told(_case())
+        except ValueError as error:  # the session has the case twice
+            problem = problem or str(error)
+    return json.dumps({"problem": problem[:1].upper() + problem[1:], "told": told})

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proves the dock Case by a hand's events: its key shows and hides it; a role that is chosen,
+dropped or opened as a file wires the pipeline in one step to undo, and undo and redo lead there and
+back; a folder's files are shown for correction before anything is opened; steps say what they lack
+and found; the fit is one press; a wrong file is refused with its reason; refining, judging,
+exporting and the report work by their buttons; and a state brings the dock back.
+
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
+import os
+
+import brainshift
+import test_hand as hand
+import window_testing as window
+from brainshift import scenes
+from brainshift_testing import scratch
+from paraview import simple
+from patient_testing import make_patient
+
+FOLDER = scratch("patient")
+DOCK = "BrainShiftCaseDock"
+
+
+def path(name):
+    return os.path.join(FOLDER, name)
+
+
+def case():
+    found, = brainshift.Case.all()
+    return found
+
+
+def names():
+    return sorted(name for name, _ in simple.GetSources())
+
+
+def text_of(step):
+    return hand.label(f"BrainShiftCase{step}Text")
+
+
+def settled():
+    hand.wait(500)
+
+
+def chosen(role):
+    return hand.entries(f"BrainShiftCase{role}")[0]
+
+
+def undo(label):
+    assert window.undo_labels()[0] == label, window.undo_labels()
+    window.action("Undo")
+    settled()
+
+
+def set_up():
+    make_patient(FOLDER)
+    for source in list(simple.GetSources().values()):
+        simple.Delete(source)
+    hand.resize_window(1280, 900)
+    assert not hand.is_visible(DOCK), "a script began this window"
+    simple.GetActiveViewOrCreate("RenderView")
+    hand.shortcut("0", hand.ALT)
+    settled()
+    assert hand.is_visible(DOCK)
+    hand.shortcut("0", hand.ALT)
+    settled()
+    assert not hand.is_visible(DOCK)
+    hand.shortcut("0", hand.ALT)
+    settled()
+    window.forget_undo()
+
+
+def steps_say_what_they_lack():
+    assert text_of("Look") == "Needs a volume", text_of("Look")
+    assert not hand.click("BrainShiftCaseFit"), "which is disabled"
+    assert chosen("Volume") == "\u2013"
+
+
+def roles_are_chosen_and_undone():
+    assert hand.drop("BrainShiftCaseVolume", path("sub-1_T1w.nii.gz"))
+    settled()
+    assert names() == ["sub-1_T1w", "sub-1_T1w bent"], names()
+    assert chosen("Volume") == "sub-1_T1w"
+    assert "41 x 41 x 41 voxels" in text_of("Look"), text_of("Look")
+    shown = simple.GetRepresentation(case().bent, simple.GetActiveView())
+    assert shown.Visibility == 1 and shown.Representation == "Deformed Volume"
+    undo("Choose Volume")
+    assert names() == [] and chosen("Volume") == "\u2013", (names(), chosen("Volume"))
+    assert text_of("Look") == "Needs a volume"
+    window.action("Redo")
+    settled()
+    assert names() == ["sub-1_T1w", "sub-1_T1w bent"] and chosen("Volume") == "sub-1_T1w"
+    mask = simple.OpenDataFile(path("sub-1_brainmask.nii.gz"))
+    simple.RenameSource("a mask", mask)
+    mask.UpdatePipeline()
+    settled()
+    assert hand.choose_by_keys("BrainShiftCaseBrain", "a mask")
+    settled()
+    assert case().bent.Segmentation == mask and case().bent.Mask == mask
+    undo("Choose Brain")
+    assert case().bent.Mask is None and case().brain is None and chosen("Brain") == "\u2013"
+    window.action("Redo")
+    settled()
+    assert case().bent.Mask == mask and chosen("Brain") == "a mask"
+
+
+def settings_are_undone():
+    assert hand.is_visible("BrainShiftCase_mask_growth")
+    assert not hand.is_visible("BrainShiftCase_surface_level"), "the brain is the cortex"
+    assert hand.type_into("BrainShiftCase_mask_growth", "3")
+    settled()
+    assert case().mask_growth == 3.0 == case().bent.MaskGrowth
+    undo("Set Brain grows by")
+    assert case().mask_growth == -1.0 == case().bent.MaskGrowth
+    assert hand.type_into("BrainShiftCase_brain_labels", "one")
+    settled()
+    assert "one" in hand.label("BrainShiftCaseProblem"), hand.label("BrainShiftCaseProblem")
+    assert case().brain_labels == []
+
+
+def a_wrong_file_is_refused():
+    before = names()
+    assert hand.drop("BrainShiftCaseTumour", path("pointer.csv"))
+    settled()
+    problem = hand.label("BrainShiftCaseProblem")
+    assert "volume" in problem and "pointer" in problem, problem
+    assert names() == before and case().tumour is None and chosen("Tumour") == "\u2013"
+    hand.close_messages()
+
+
+def traces_are_opened_measured_and_fitted():
+    assert "traces" in text_of("Fit"), text_of("Fit")
+    hand.answer_path("BrainShiftCaseFile", path("pointer.csv"))
+    assert hand.choose_by_keys("BrainShiftCaseTraces", "Open File...")
+    window.until(lambda: chosen("Traces") == "traced points", "the traces")
+    settled()
+    assert "150 of 150 traced points" in text_of("Measure"), text_of("Measure")
+    before = case().trace_distance.RMS
+    assert hand.choose_by_keys("BrainShiftCaseOpening", "Sphere")
+    settled()
+    centre, radius = case().opening
+    assert 20.0 < radius < 40.0 and hand.is_visible("BrainShiftCaseSphere"), (centre, radius)
+    assert hand.click("BrainShiftCaseFit")
+    window.until(lambda: "residuals" in text_of("Fit"), "the fit")
+    settled()
+    assert case().trace_distance.RMS < 0.3 * before, (before, case().trace_distance.RMS)
+    assert list(case().bent.Lattice.OpeningCentre) == list(centre)
+    undo("Fit")
+    assert case().bent.Lattice is None and text_of("Fit") == ""
+    window.action("Redo")
+    settled()
+    assert "residuals" in text_of("Fit"), text_of("Fit")
+    assert hand.click("BrainShiftCaseMeasure")
+    settled()
+    shown = simple.GetRepresentation(case().trace_distance, simple.GetActiveView())
+    assert shown.Visibility == 1
+
+
+def by_hand_takes_the_stamp():
+    assert hand.click("BrainShiftCaseByhand")
+    hand.wait(200)
+    assert hand.setting("tool") == hand.STAMP and simple.GetActiveSource() == case().bent
+    hand.take(hand.NONE)
+    hand.shortcut("0", hand.ALT)
+    settled()
+    assert hand.is_visible(DOCK)
+
+
+def a_folder_is_sorted_and_corrected():
+    assert hand.click("BrainShiftCaseNew")
+    settled()
+    assert chosen("Volume") == "\u2013" and hand.entries("BrainShiftCases")[0] == "New case"
+    hand.answer("BrainShiftProposal", "BrainShiftProposalOk", ("BrainShiftProposal2", "None"))
+    assert hand.drop(DOCK, FOLDER)
+    window.until(lambda: chosen("Volume") == "sub-1_T1w 2", "the case of the folder")
+    settled()
+    rows = {row[0]: row[1] for row in hand.answered()}
+    assert rows["pointer.csv"] == "Traces" and rows["targets.csv"] == "Landmarks", rows
+    assert rows["sub-1_Tumor.nii.gz"] == "Tumour", rows
+    assert list(rows)[2] == "pointer.csv", "the one that was corrected"
+    assert chosen("Traces") == "\u2013" and chosen("Tumour") == "sub-1_Tumor"
+    assert chosen("Landmarks") == "landmarks at rest" and chosen("Measured") == "measured landmarks"
+    assert chosen("Reference") == "sub-1_postop", chosen("Reference")
+    assert len(hand.entries("BrainShiftCases")[1]) == 2
+    assert hand.click("BrainShiftCaseJudge")
+    settled()
+    assert "of 8 landmarks" in text_of("Judge"), text_of("Judge")
+
+
+def second():
+    return brainshift.Case.all()[1]
+
+
+def a_reference_is_refined():
+    assert hand.click("BrainShiftCaseRefine")
+    window.until(lambda: "Finished" in text_of("Refine") or "compared" in text_of("Refine"),
+                 "the end of the refinement", 120.0)
+    settled()
+
+
+def files_are_written():
+    os.makedirs(scratch("exported"), exist_ok=True)
+    hand.answer_path("BrainShiftCaseExportDialog", scratch("exported"))
+    assert hand.click("BrainShiftCaseExport")
+    window.until(lambda: "files" in text_of("Export"), "the export")
+    assert sorted(os.listdir(scratch("exported"))) == [
+        "sub-1_T1w_bent.nii.gz", "sub-1_T1w_field.nii.gz"], os.listdir(scratch("exported"))
+    hand.answer_path("BrainShiftCaseReportDialog", scratch("report.html"))
+    assert hand.click("BrainShiftCaseReport")
+    window.until(lambda: "report.html" in text_of("Report"), "the report", 120.0)
+    with open(scratch("report.html"), encoding="utf-8") as page:
+        assert "sub-1" not in page.read(), "names stay out"
+    drawn = scenes.slices(second(), scenes.focus_of(second()), (64, 64))["axial"]
+    assert drawn[:4, :4].max() == 0 and drawn[32, 32].min() > 100, "no memory of a window"
+
+
+def a_state_brings_the_dock_back():
+    assert hand.choose_by_keys("BrainShiftCases", hand.entries("BrainShiftCases")[1][0])
+    settled()
+    fit = text_of("Fit")
+    assert "residuals" in fit, fit
+    hand.save_state(scratch("case.pvsm"))
+    hand.reset_session()
+    settled()
+    assert text_of("Look") == "Needs a volume", text_of("Look")
+    hand.load_state(scratch("case.pvsm"))
+    window.until(lambda: text_of("Fit") == fit, "the fit of the state")
+    assert chosen("Brain") == "a mask" and hand.is_visible("BrainShiftCaseSphere")
+
+
+window.main("CaseByHand", [
+    (set_up,), (steps_say_what_they_lack,), (roles_are_chosen_and_undone,), (settings_are_undone,),
+    (a_wrong_file_is_refused,), (traces_are_opened_measured_and_fitted,),
+    (by_hand_takes_the_stamp,), (a_folder_is_sorted_and_corrected,), (a_reference_is_refined,),
+    (files_are_written,), (a_state_brings_the_dock_back,)])
