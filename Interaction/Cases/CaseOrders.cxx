@@ -8,6 +8,7 @@
 
 #include <pqPipelineSource.h>
 #include <pqServer.h>
+#include <pqView.h>
 
 #include <QCoreApplication>
 #include <QCursor>
@@ -15,6 +16,7 @@
 #include <QGuiApplication>
 #include <QJsonDocument>
 #include <QScopedValueRollback>
+#include <QWidget>
 
 namespace brainshift
 {
@@ -31,6 +33,20 @@ public:
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
 };
+}
+
+namespace
+{
+void drawAll()
+{
+  for (pqView* view : serverManagerModel()->findItems<pqView*>())
+  {
+    if (view->widget() && view->widget()->isVisible())
+    {
+      view->forceRender();
+    }
+  }
+}
 }
 
 CaseOrders::CaseOrders(QObject* parent)
@@ -78,11 +94,11 @@ void CaseOrders::give(const QString& order, const QJsonObject& arguments, const 
     {
       SCOPED_UNDO_SET(label);
       this->ask(order, arguments);
-      // What the window does next to a new display belongs to the step.
+      // What the window does next to a new display, also once it is drawn, belongs to the step.
+      drawAll();
       QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents);
     }
   }
-  pqApplicationCore::instance()->render();
   Q_EMIT this->changed();
 }
 

@@ -47,6 +47,9 @@ namespace brainshift
 {
 namespace
 {
+constexpr double ShareOfPipeline = 0.2; // of the height, for the pipeline browser above
+constexpr int Gap = 3;                  // pixels between rows
+
 constexpr const char* VisibleSetting = "BrainShift/Case/Visible";
 
 constexpr std::array<const char*, 4> SphereNames{ "X", "Y", "Z", "Radius" };
@@ -68,7 +71,9 @@ QVBoxLayout* addGroup(QVBoxLayout* layout, const QString& title)
 {
   auto group = new QGroupBox(title);
   layout->addWidget(group);
-  return new QVBoxLayout(group);
+  auto inside = new QVBoxLayout(group);
+  inside->setContentsMargins(2 * Gap, Gap, 2 * Gap, Gap);
+  return inside;
 }
 
 // Whether ParaView was started to show or do something certain, or its user has met the dock.
@@ -99,6 +104,8 @@ CaseDock::CaseDock(QWidget* parent)
   this->setAcceptDrops(true);
   auto content = new QWidget;
   auto layout = new QVBoxLayout(content);
+  layout->setContentsMargins(2 * Gap, Gap, 2 * Gap, Gap);
+  layout->setSpacing(Gap);
   this->addCases(layout);
   this->addRoles(layout);
   this->addSteps(layout);
@@ -129,7 +136,7 @@ void CaseDock::settle()
   this->setVisible(wasShown || isFirst);
   if (isFirst)
   {
-    this->raise();
+    this->comeToFront();
   }
   this->connect(this->toggleViewAction(), &QAction::toggled, this,
     [](bool on) { pqApplicationCore::instance()->settings()->setValue(VisibleSetting, on); });
@@ -141,8 +148,25 @@ void CaseDock::toggle()
   this->setVisible(!isInFront);
   if (!isInFront)
   {
-    this->raise();
+    this->comeToFront();
     this->Boxes[Roles.front()]->setFocus(Qt::ShortcutFocusReason);
+  }
+}
+
+// The first time with more of the window's height than the panel below the pipeline has: then the
+// steps are seen, too.
+void CaseDock::comeToFront()
+{
+  this->raise();
+  auto window = qobject_cast<QMainWindow*>(this->window());
+  auto pipeline = window ? window->findChild<QDockWidget*>("pipelineBrowserDock") : nullptr;
+  if (!this->IsRoomy && pipeline && !this->isFloating() && pipeline->isVisible() &&
+    window->dockWidgetArea(pipeline) == window->dockWidgetArea(this))
+  {
+    const int both = pipeline->height() + this->height();
+    const int above = std::min(pipeline->height(), static_cast<int>(ShareOfPipeline * both));
+    window->resizeDocks({ pipeline, this }, { above, both - above }, Qt::Vertical);
+    this->IsRoomy = true;
   }
 }
 
@@ -176,6 +200,7 @@ void CaseDock::addRoles(QVBoxLayout* layout)
 {
   QVBoxLayout* group = addGroup(layout, tr("What is known"));
   auto form = new QFormLayout;
+  form->setVerticalSpacing(Gap);
   group->addLayout(form);
   for (const char* role : Roles)
   {
@@ -197,13 +222,6 @@ void CaseDock::addRoles(QVBoxLayout* layout)
       form->addRow(this->Sphere);
     }
   }
-  this->Settings = new CaseSettings;
-  group->addWidget(this->Settings);
-  this->connect(this->Settings, &CaseSettings::edited, this,
-    [this](const QString& name, const QJsonValue& value, const QString& label) {
-      this->Orders->give("set", { { "name", name }, { "value", value } }, tr("Set %1").arg(label));
-    });
-  this->connect(this->Settings, &CaseSettings::refused, this->Orders, &CaseOrders::report);
 }
 
 void CaseDock::addSphere(QVBoxLayout*)
@@ -248,10 +266,22 @@ void CaseDock::addSteps(QVBoxLayout* layout)
   this->Steps = new StepRows;
   group->addWidget(this->Steps);
   this->connect(this->Steps, &StepRows::pressed, this, &CaseDock::run);
+  this->addSettings(layout);
   auto note = new QLabel(tr("Research software, not a medical device."));
   note->setWordWrap(true);
   note->setEnabled(false);
   layout->addWidget(note);
+}
+
+void CaseDock::addSettings(QVBoxLayout* layout)
+{
+  this->Settings = new CaseSettings;
+  addGroup(layout, tr("Settings"))->addWidget(this->Settings);
+  this->connect(this->Settings, &CaseSettings::edited, this,
+    [this](const QString& name, const QJsonValue& value, const QString& label) {
+      this->Orders->give("set", { { "name", name }, { "value", value } }, tr("Set %1").arg(label));
+    });
+  this->connect(this->Settings, &CaseSettings::refused, this->Orders, &CaseOrders::report);
 }
 
 void CaseDock::choose(const QString& role, const QJsonObject& what)
@@ -392,6 +422,7 @@ void CaseDock::showState()
     this->SphereFields[i]->setValue(sphere[i].toDouble());
   }
   this->Settings->show(told["settings"].toObject());
+  this->Settings->parentWidget()->setVisible(!this->Settings->isHidden());
   this->Steps->show(told["steps"].toArray());
   this->showRefine();
   this->Problem->setText(this->Orders->problem());

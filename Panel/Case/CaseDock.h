@@ -44,9 +44,11 @@ private:
   void addRoles(QVBoxLayout* layout);
   void addSphere(QVBoxLayout* layout);
   void addSteps(QVBoxLayout* layout);
+  void addSettings(QVBoxLayout* layout);
   void openFolder();
   /// Tabs the dock with the panel Properties, and shows it where nobody has used it yet.
   void settle();
+  void comeToFront();
   void run(const QString& step);
   void runByHand();
   void runRefine();
@@ -64,6 +66,7 @@ private:
   StepRows* Steps = nullptr;
   QLabel* Problem = nullptr;
   RefineEditor* Watched = nullptr; ///< its signals are connected
+  bool IsRoomy = false;            ///< whether it has got more of the window's height
 };
 }
 

@@ -14,6 +14,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr int Gap = 3; // pixels between rows
+
 enum Column
 {
   ButtonColumn,
@@ -65,6 +67,7 @@ StepRows::StepRows()
 {
   this->setObjectName("BrainShiftCaseSteps");
   this->Grid->setContentsMargins(0, 0, 0, 0);
+  this->Grid->setVerticalSpacing(Gap);
   this->Grid->setColumnStretch(TextColumn, 1);
 }
 

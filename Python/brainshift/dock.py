@@ -214,7 +214,7 @@ def _show_points(source, view, color):
 
     shown = simple.Show(source, view)
     shown.SetRepresentationType("Points")
-    simple.ColorBy(shown, None)
+    shown.ColorArrayName = ["POINTS", ""]  # ColorBy(None) fails where there is an array
     shown.PointSize, shown.RenderPointsAsSpheres = 9.0, 1
     shown.AmbientColor = shown.DiffuseColor = color
 
