@@ -15,6 +15,7 @@ import documentation_pictures as script  # noqa: E402
 SMALL = 240  # pixels of a picture's width
 LEAST_CONTRAST = 10.0  # standard deviation of the brightness, of 255
 FROM_THE_WINDOW = {  # in the folder "window"
+    "case",  # by hand: the dock after Measure, with the sample head and points on its cortex
     "stamp-strip", "window",  # Examples/stamp_strip.py, Examples/demo.py
     "tool-pointer",  # by hand: the dock beside a brain, with a server of poses
     "tool-pull",  # by hand, while the third pull is dragged
