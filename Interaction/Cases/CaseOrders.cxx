@@ -5,6 +5,7 @@
 #include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/RefineEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
+#include "Interaction/Views/ActiveDeformation.h"
 
 #include <pqPipelineSource.h>
 #include <pqServer.h>
@@ -33,10 +34,7 @@ public:
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
 };
-}
 
-namespace
-{
 void drawAll()
 {
   for (pqView* view : serverManagerModel()->findItems<pqView*>())
@@ -62,10 +60,18 @@ CaseOrders::CaseOrders(QObject* parent)
   this->connect(model, &pqServerManagerModel::nameChanged, this, soon);
   this->connect(model, &pqServerManagerModel::dataUpdated, this, soon);
   this->connect(model, &pqServerManagerModel::serverAdded, this, soon);
-  this->connect(model, &pqServerManagerModel::serverRemoved, this, soon);
+  this->connect(model, &pqServerManagerModel::serverRemoved, this, [this] {
+    this->Told.remove("bent"); // numbers of another session
+    this->Told.remove("comparison");
+    this->Problem.clear();
+    this->refreshSoon();
+  });
   if (pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack())
   {
     this->connect(stack, &pqUndoStack::stackChanged, this, soon); // what has no source changed, too
+    const auto forget = [this] { this->Problem.clear(); };
+    this->connect(stack, &pqUndoStack::undone, this, forget);
+    this->connect(stack, &pqUndoStack::redone, this, forget);
   }
 }
 
@@ -81,8 +87,19 @@ void CaseOrders::setWatched(bool on)
   this->refreshSoon();
 }
 
+// As an edit of the panel: what another order reads or changes is then whole.
+void CaseOrders::endEdits()
+{
+  if (pqPipelineSource* deformation = this->bent())
+  {
+    RefineEditor::of(deformation)->stop();
+    StrokeEditor::of(deformation)->cancel();
+  }
+}
+
 void CaseOrders::give(const QString& order, const QJsonObject& arguments, const QString& label)
 {
+  this->endEdits();
   {
     const Waiting cursor;
     if (label.isEmpty())
@@ -106,10 +123,7 @@ QJsonArray CaseOrders::sorted(const QStringList& paths)
 {
   const Waiting cursor;
   SCOPED_UNDO_EXCLUDE();
-  const bool isFolder = paths.size() == 1;
-  const QJsonValue asked =
-    isFolder ? QJsonValue(paths.first()) : QJsonValue(QJsonArray::fromStringList(paths));
-  return this->ask("sort", { { "paths", asked } }).toArray();
+  return this->ask("sort", { { "paths", QJsonArray::fromStringList(paths) } }).toArray();
 }
 
 QJsonValue CaseOrders::ask(const QString& order, const QJsonObject& arguments)
@@ -120,20 +134,23 @@ QJsonValue CaseOrders::ask(const QString& order, const QJsonObject& arguments)
     "brainshift.dock", "answer", QJsonDocument(asked).toJson(QJsonDocument::Compact).toStdString());
   if (!answer)
   {
-    this->Problem = tr("Python's module brainshift cannot be used here. The Output Messages have "
+    this->Trouble = tr("Python's module brainshift cannot be used here. The Output Messages have "
                        "the reason.");
     return {};
   }
   const QJsonObject told = QJsonDocument::fromJson(QByteArray::fromStdString(*answer)).object();
-  if (order != "tell") // which is none of the user's
-  {
-    this->Problem = told["problem"].toString();
-  }
+  (order == "tell" ? this->Trouble : this->Problem) = told["problem"].toString();
   if (told["told"].isObject())
   {
     this->Told = told["told"].toObject();
   }
   return told["told"];
+}
+
+pqPipelineSource* CaseOrders::bent() const
+{
+  pqPipelineSource* found = this->source("bent");
+  return isDeformation(found) ? found : nullptr;
 }
 
 pqPipelineSource* CaseOrders::source(const char* key) const

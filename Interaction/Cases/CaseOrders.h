@@ -25,8 +25,8 @@ public:
 
   /// What `_told` of Python/brainshift/dock.py says of the case, by its keys. Empty at first.
   const QJsonObject& told() const { return this->Told; }
-  /// Why the last order failed: a sentence. Empty if it did not.
-  const QString& problem() const { return this->Problem; }
+  /// Why the last order failed, or why the case is not known now: a sentence, or empty.
+  const QString& problem() const { return this->Problem.isEmpty() ? this->Trouble : this->Problem; }
   /// Shows a reason of the window's own as that of the last order.
   void report(const QString& problem);
 
@@ -36,7 +36,7 @@ public:
   QJsonArray sorted(const QStringList& paths);
 
   /// The Free-Form Deformation of the case, and its Compare Volumes; null while there is none.
-  pqPipelineSource* bent() const { return this->source("bent"); }
+  pqPipelineSource* bent() const;
   pqPipelineSource* comparison() const { return this->source("comparison"); }
 
   /// Whether anyone looks: only then the case is asked again when the pipeline changes.
@@ -49,13 +49,15 @@ Q_SIGNALS:
 private:
   pqPipelineSource* source(const char* key) const;
   QJsonValue ask(const QString& order, const QJsonObject& arguments);
+  void endEdits();
   void refreshSoon();
   void refresh();
   /// Whether an edit or a registration is under way, a state is loaded, or there is no session.
   bool isBusy() const;
 
   QJsonObject Told;
-  QString Problem;
+  QString Problem; ///< Of the last order.
+  QString Trouble; ///< Of the last look at the case.
   QTimer Soon;
   bool Watched = false;
   bool Asking = false;

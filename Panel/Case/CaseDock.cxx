@@ -11,6 +11,7 @@
 #include "Panel/Case/StepRows.h"
 #include "Panel/Parts/Advice.h"
 #include "Panel/Parts/MillimetreField.h"
+#include "Panel/Parts/StillWheel.h"
 #include "Panel/Registered/PaneParts.h"
 #include "Panel/Registered/RefinePane.h"
 
@@ -41,12 +42,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 namespace brainshift
 {
 namespace
 {
+constexpr int StepOfRefine = 4; // in the list of steps
+
 constexpr double ShareOfPipeline = 0.2; // of the height, for the pipeline browser above
 constexpr int Gap = 3;                  // pixels between rows
 
@@ -77,12 +79,17 @@ QVBoxLayout* addGroup(QVBoxLayout* layout, const QString& title)
 }
 
 // Whether ParaView was started to show or do something certain, or its user has met the dock.
-bool isAtHome()
+bool startsForSomething()
 {
   const auto start = pqCoreConfiguration::instance();
   return pqApplicationCore::instance()->settings()->contains(VisibleSetting) ||
     !start->pythonScript().empty() || !start->stateFileName().empty() ||
     !start->dataFileNames().empty() || start->testScriptCount() > 0;
+}
+
+QMainWindow* mainWindow()
+{
+  return qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
 }
 
 QString chosenPath(const QString& title, const char* name, pqFileDialog::FileMode mode)
@@ -123,12 +130,14 @@ CaseDock::CaseDock(QWidget* parent)
 
 void CaseDock::settle()
 {
-  auto window = qobject_cast<QMainWindow*>(this->window());
+  auto window = mainWindow();
   auto properties = window ? window->findChild<QDockWidget*>("propertiesDock") : nullptr;
   const bool wasShown =
     pqApplicationCore::instance()->settings()->value(VisibleSetting, false).toBool();
-  const bool isFirst = !isAtHome();
-  if (properties)
+  const bool isFirst = !startsForSomething();
+  const bool isPlaced =
+    this->isFloating() || !window || !window->tabifiedDockWidgets(this).isEmpty();
+  if (properties && !isPlaced)
   {
     window->tabifyDockWidget(properties, this);
     properties->raise();
@@ -142,10 +151,16 @@ void CaseDock::settle()
     [](bool on) { pqApplicationCore::instance()->settings()->setValue(VisibleSetting, on); });
 }
 
+void CaseDock::remember()
+{
+  pqApplicationCore::instance()->settings()->setValue(VisibleSetting, !this->isHidden());
+}
+
 void CaseDock::toggle()
 {
   const bool isInFront = this->isVisible() && !this->visibleRegion().isEmpty();
   this->setVisible(!isInFront);
+  this->remember();
   if (!isInFront)
   {
     this->comeToFront();
@@ -158,7 +173,7 @@ void CaseDock::toggle()
 void CaseDock::comeToFront()
 {
   this->raise();
-  auto window = qobject_cast<QMainWindow*>(this->window());
+  auto window = mainWindow();
   auto pipeline = window ? window->findChild<QDockWidget*>("pipelineBrowserDock") : nullptr;
   if (!this->IsRoomy && pipeline && !this->isFloating() && pipeline->isVisible() &&
     window->dockWidgetArea(pipeline) == window->dockWidgetArea(this))
@@ -188,6 +203,7 @@ void CaseDock::addCases(QVBoxLayout* layout)
   this->Cases = new QComboBox;
   this->Cases->setObjectName("BrainShiftCases");
   this->Cases->setAccessibleName(tr("Case"));
+  keepStill(this->Cases);
   this->Cases->setToolTip(tr("The case that this dock shows."));
   this->connect(this->Cases, &QComboBox::activated, this, [this](int index) {
     this->Orders->give(
@@ -198,7 +214,7 @@ void CaseDock::addCases(QVBoxLayout* layout)
 
 void CaseDock::addRoles(QVBoxLayout* layout)
 {
-  QVBoxLayout* group = addGroup(layout, tr("What is known"));
+  QVBoxLayout* group = addGroup(layout, tr("Roles"));
   auto form = new QFormLayout;
   form->setVerticalSpacing(Gap);
   group->addLayout(form);
@@ -218,13 +234,13 @@ void CaseDock::addRoles(QVBoxLayout* layout)
     form->addRow(name, box);
     if (this->Boxes.size() == 5) // the opening
     {
-      this->addSphere(group);
+      this->addSphere();
       form->addRow(this->Sphere);
     }
   }
 }
 
-void CaseDock::addSphere(QVBoxLayout*)
+void CaseDock::addSphere()
 {
   this->Sphere = new QWidget;
   this->Sphere->setObjectName("BrainShiftCaseSphere");
@@ -257,7 +273,7 @@ void CaseDock::addSteps(QVBoxLayout* layout)
   this->Problem->setObjectName("BrainShiftCaseProblem");
   this->Problem->setWordWrap(true);
   this->Problem->setTextFormat(Qt::PlainText);
-  this->Problem->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  this->Problem->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   QPalette palette = this->palette();
   palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette, false));
   this->Problem->setPalette(palette);
@@ -367,7 +383,7 @@ void CaseDock::runByHand()
   const auto easiest =
     std::find_if(tools.rbegin(), tools.rend(), [](const ToolRow& row) { return row.lesson; });
   ToolSettings::instance()->setTool(easiest == tools.rend() ? Tool::None : easiest->tool);
-  if (auto properties = this->window()->findChild<QDockWidget*>("propertiesDock"))
+  if (auto properties = mainWindow()->findChild<QDockWidget*>("propertiesDock"))
   {
     properties->show();
     properties->raise();
@@ -446,12 +462,10 @@ void CaseDock::showState()
 void CaseDock::showRefine()
 {
   RefineEditor* editor = RefineEditor::of(this->Orders->bent());
-  if (editor && editor != this->Watched)
+  if (editor)
   {
-    this->Watched = editor;
-    this->connect(editor, &RefineEditor::changed, this, &CaseDock::showRefine);
-    this->connect(editor, &QObject::destroyed, this,
-      [this, editor] { this->Watched = this->Watched == editor ? nullptr : this->Watched; });
+    this->connect(
+      editor, &RefineEditor::changed, this, &CaseDock::showRefine, Qt::UniqueConnection);
   }
   if (!editor || (editor->costs().isEmpty() && editor->problem().isEmpty()))
   {
@@ -463,7 +477,13 @@ void CaseDock::showRefine()
     this->Steps->showInstead("Refine", refineProgress(figures), tr("Stop"));
     return;
   }
-  const bool wasKept = editor->state() != LiveRun::State::Idle && figures.steps > 0;
+  const QJsonValue step = this->Orders->told()["steps"][StepOfRefine];
+  if (!step["lacks"].toString().isEmpty())
+  {
+    return;
+  }
+  const bool wasKept =
+    step["state"] == "done" && editor->state() != LiveRun::State::Idle && figures.steps > 0;
   QStringList lines{ editor->problem() };
   if (wasKept)
   {

@@ -19,7 +19,6 @@ namespace brainshift
 class CaseOrders;
 class CaseSettings;
 class MillimetreField;
-class RefineEditor;
 class RoleBox;
 class StepRows;
 
@@ -42,13 +41,14 @@ protected:
 private:
   void addCases(QVBoxLayout* layout);
   void addRoles(QVBoxLayout* layout);
-  void addSphere(QVBoxLayout* layout);
+  void addSphere();
   void addSteps(QVBoxLayout* layout);
   void addSettings(QVBoxLayout* layout);
   void openFolder();
   /// Tabs the dock with the panel Properties, and shows it where nobody has used it yet.
   void settle();
   void comeToFront();
+  void remember(); ///< Keeps for the next start whether it is shown.
   void run(const QString& step);
   void runByHand();
   void runRefine();
@@ -65,8 +65,7 @@ private:
   CaseSettings* Settings = nullptr;
   StepRows* Steps = nullptr;
   QLabel* Problem = nullptr;
-  RefineEditor* Watched = nullptr; ///< its signals are connected
-  bool IsRoomy = false;            ///< whether it has got more of the window's height
+  bool IsRoomy = false; ///< whether it has got more of the window's height
 };
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Case/CaseSettings.h"
 
+#include "Panel/Parts/StillWheel.h"
+
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
@@ -76,7 +78,7 @@ void CaseSettings::addField(
   field->setObjectName(nameOfField(name));
   field->setAccessibleName(label);
   field->setToolTip(tip);
-  field->setFocusPolicy(Qt::StrongFocus);
+  keepStill(field);
   this->Fields[name] = field;
   if (qobject_cast<QCheckBox*>(field))
   {
@@ -174,7 +176,8 @@ void CaseSettings::show(const QJsonObject& told)
     const bool shown = setting["shown"].toBool();
     this->Form->setRowVisible(field.value(), shown);
     any = any || shown;
-    if (!field.value()->hasFocus() || !qobject_cast<QLineEdit*>(field.value()))
+    const auto text = qobject_cast<QLineEdit*>(field.value());
+    if (!text || !text->isModified()) // else the user is typing
     {
       showIn(field.value(), setting["value"]);
     }

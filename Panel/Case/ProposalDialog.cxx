@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Case/ProposalDialog.h"
 
+#include "Panel/Parts/StillWheel.h"
+
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFileInfo>
@@ -48,7 +50,8 @@ ProposalDialog::ProposalDialog(QWidget* parent, const QJsonArray& proposal, cons
   this->setWindowTitle(tr("Files of the case"));
   auto layout = new QVBoxLayout(this);
   auto text = new QLabel(tr("Each file gets the role that its name or content suggests. Correct "
-                            "what is wrong. Nothing is opened before OK."));
+                            "what is wrong. A case that has a volume stays; the files then begin "
+                            "another."));
   text->setWordWrap(true);
   layout->addWidget(text);
   this->Table = new QTableWidget(static_cast<int>(proposal.size()), Columns);
@@ -62,15 +65,17 @@ ProposalDialog::ProposalDialog(QWidget* parent, const QJsonArray& proposal, cons
   {
     const QString path = proposal[row][1].toString();
     this->Table->setItem(row, FileColumn, textItem(QFileInfo(path).fileName(), path));
+    this->Table->item(row, FileColumn)->setData(Qt::UserRole, path);
     const QString reason = proposal[row][2].toString();
     this->Table->setItem(row, ReasonColumn, textItem(reason, reason));
     auto box = new QComboBox;
     box->setObjectName(QString("BrainShiftProposal%1").arg(row));
     box->setAccessibleName(tr("Role of %1").arg(QFileInfo(path).fileName()));
+    keepStill(box);
     box->addItem(tr("None"), QString());
     for (const QJsonValue role : roles)
     {
-      if (role["role"].toString() != "measured") // which is of the same file
+      if (role["role"].toString() != "measured") // landmarks stand for both
       {
         box->addItem(role["label"].toString(), role["role"].toString());
       }
@@ -105,7 +110,7 @@ QJsonObject ProposalDialog::accepted() const
     const QString role = boxOf(this->Table, row)->currentData().toString();
     if (!role.isEmpty())
     {
-      files[role] = this->Table->item(row, FileColumn)->toolTip();
+      files[role] = this->Table->item(row, FileColumn)->data(Qt::UserRole).toString();
     }
   }
   return files;

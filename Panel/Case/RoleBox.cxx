@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Case/RoleBox.h"
 
+#include "Panel/Parts/StillWheel.h"
+
 #include <pqActiveObjects.h>
 #include <pqCoreUtilities.h>
 #include <pqFileDialog.h>
@@ -9,10 +11,14 @@
 #include <QDropEvent>
 #include <QJsonArray>
 #include <QJsonObject>
+#include <QKeyEvent>
 #include <QMimeData>
 #include <QSignalBlocker>
+#include <QTimer>
 #include <QUrl>
-#include <QWheelEvent>
+
+#include <algorithm>
+#include <array>
 
 namespace brainshift
 {
@@ -43,8 +49,8 @@ RoleBox::RoleBox(const QString& role)
 {
   this->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   this->setMinimumContentsLength(LeastLetters);
-  this->setFocusPolicy(Qt::StrongFocus);
   this->setAcceptDrops(true);
+  keepStill(this);
   this->connect(this, &QComboBox::activated, this, &RoleBox::choose);
 }
 
@@ -70,12 +76,19 @@ void RoleBox::show(const QJsonObject& told, bool sphere)
 void RoleBox::choose(int index)
 {
   const int entry = this->itemData(index).toInt();
-  if (entry != FileEntry)
+  if (entry == FileEntry)
+  {
+    this->setCurrentIndex(this->Shown); // until the file is read
+    this->openFile();
+  }
+  else if (index != this->Shown)
   {
     entry == SphereEntry ? Q_EMIT this->sphereChosen() : Q_EMIT this->sourceChosen(entry);
-    return;
   }
-  this->setCurrentIndex(this->Shown); // until the file is read
+}
+
+void RoleBox::openFile()
+{
   pqFileDialog dialog(pqActiveObjects::instance().activeServer(), pqCoreUtilities::mainWidget(),
     tr("Open: %1").arg(this->accessibleName()));
   dialog.setObjectName("BrainShiftCaseFile");
@@ -94,15 +107,24 @@ void RoleBox::dragEnterEvent(QDragEnterEvent* event)
   }
 }
 
+// Later: the program that the file comes from waits for the end of the drop.
 void RoleBox::dropEvent(QDropEvent* event)
 {
   event->acceptProposedAction();
-  Q_EMIT this->fileChosen(pathsOf(event->mimeData()).first());
+  QTimer::singleShot(
+    0, this, [this, path = pathsOf(event->mimeData()).first()] { Q_EMIT this->fileChosen(path); });
 }
 
-// A turn of the wheel over the dock scrolls the dock; it must not give a role away.
-void RoleBox::wheelEvent(QWheelEvent* event)
+void RoleBox::keyPressEvent(QKeyEvent* event)
 {
-  event->ignore();
+  constexpr std::array<int, 6> chooses{ Qt::Key_Up, Qt::Key_Down, Qt::Key_PageUp, Qt::Key_PageDown,
+    Qt::Key_Home, Qt::Key_End };
+  const bool isLetter = !event->text().isEmpty() && event->text().front().isPrint();
+  if (isLetter || std::find(chooses.begin(), chooses.end(), event->key()) != chooses.end())
+  {
+    this->showPopup();
+    return;
+  }
+  this->QComboBox::keyPressEvent(event);
 }
 }

@@ -38,10 +38,12 @@ Q_SIGNALS:
 protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
-  void wheelEvent(QWheelEvent* event) override;
+  /// The keys that would choose unseen open the list.
+  void keyPressEvent(QKeyEvent* event) override;
 
 private:
   void choose(int index);
+  void openFile();
 
   const QString Role;
   int Shown = 0; ///< The entry that the case has.

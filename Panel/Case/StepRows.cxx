@@ -69,6 +69,12 @@ StepRows::StepRows()
   this->Grid->setContentsMargins(0, 0, 0, 0);
   this->Grid->setVerticalSpacing(Gap);
   this->Grid->setColumnStretch(TextColumn, 1);
+  // Now, so that the key Tab comes to them in this order.
+  for (const char* step :
+    { "Look", "Measure", "Fit", "By hand", "Refine", "Judge", "Export", "Tumour left", "Report" })
+  {
+    this->row(step);
+  }
 }
 
 StepRows::Row& StepRows::row(const QString& step)
@@ -87,7 +93,7 @@ StepRows::Row& StepRows::row(const QString& step)
     row.text->setObjectName(row.button->objectName() + "Text");
     row.text->setWordWrap(true);
     row.text->setTextFormat(Qt::PlainText);
-    row.text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    row.text->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     this->Grid->addWidget(row.button, at, ButtonColumn, Qt::AlignTop);
     this->Grid->addWidget(row.sign, at, SignColumn, Qt::AlignTop);
     this->Grid->addWidget(row.text, at, TextColumn);
@@ -119,10 +125,8 @@ void StepRows::showInstead(const QString& step, const QString& text, const QStri
   Row& row = this->row(step);
   row.text->setText(text);
   row.text->setEnabled(true);
-  if (!button.isEmpty())
-  {
-    row.button->setText(button);
-    row.button->setEnabled(true);
-  }
+  row.button->setAccessibleDescription(text);
+  row.button->setText(button);
+  row.button->setEnabled(true);
 }
 }

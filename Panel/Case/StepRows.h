@@ -23,8 +23,8 @@ public:
 
   /// Shows steps as `_told_steps` of dock.py tells them.
   void show(const QJsonArray& told);
-  /// Shows another text for a step, and on its button. Without a name, the step's own.
-  void showInstead(const QString& step, const QString& text, const QString& button = {});
+  /// Shows another text for a step, and on its button.
+  void showInstead(const QString& step, const QString& text, const QString& button);
 
 Q_SIGNALS:
   /// The user pressed the button of a step.

@@ -15,6 +15,7 @@
 #include "Panel/Window/StatusLine.h"
 
 #include <pqActiveObjects.h>
+#include <pqCoreUtilities.h>
 #include <pqPipelineSource.h>
 #include <pqView.h>
 
@@ -161,7 +162,7 @@ void Toolbar::addCase()
       .arg(keysText(rowOf(Command::ShowCase))));
   action->setShortcut(shortcutOf(Command::ShowCase));
   this->connect(action, &QAction::triggered, this, [this] {
-    if (auto dock = this->window()->findChild<CaseDock*>())
+    if (auto dock = pqCoreUtilities::mainWidget()->findChild<CaseDock*>())
     {
       dock->toggle();
     }

@@ -1,110 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A case: files or sources by their roles, and the pipeline that they make."""
 
-import itertools
 import json
 import os
 import uuid
 
 from .arguments import positive, vector
+from .casesources import (
+    MARK, OPENED, SETTING, free_name, inputs_of, marks, opened, require_kind, settings_at, sources,
+    stem, values_of)
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
-from .roles import ROLES, ending, holds_both, landmark_columns, open_file, proposed
+from .roles import ROLES, ending, holds_both, landmark_columns, proposed
 from .steps import Steps
-
-#: Annotations of proxies, which state files keep: `MARK` + role + "." + name of the case, `SETTING`
-#: + name, at the Free-Form Deformation, a setting as JSON, and `OPENED` is at sources that a case
-#: opened itself.
-MARK, SETTING, OPENED = "BrainShift.Case.", "BrainShift.CaseSetting.", "BrainShift.CaseOpened"
-
-#: Roles that points have. All others are volumes.
-POINT_ROLES = ("traces", "landmarks", "measured", "electrodes")
 
 #: Parts of the pipeline that a case makes, beside the sources of its roles.
 _MADE = ("trace_distance", "contact_distance", "comparison", "joined", "bent")
-
-
-def _proxies():
-    """All sources of the pipeline."""
-    from paraview import simple
-
-    return list(simple.GetSources().values())
-
-
-def _free_name(name):
-    """A name that no source of the pipeline has."""
-    from paraview import simple
-
-    taken = {known for known, _ in simple.GetSources()}
-    others = (f"{name} {number}" for number in itertools.count(2))
-    return next(each for each in itertools.chain([name], others) if each not in taken)
-
-
-def _stem(source):
-    """The name of a source's file without its ending, or the name of the source."""
-    from paraview import servermanager
-
-    for name in ("FileName", "FileNames"):
-        value = getattr(source, name, None)
-        if value:
-            path = value if isinstance(value, str) else value[0]
-            base = os.path.basename(os.path.normpath(path))
-            return base[:len(base) - len(ending(path))] if ending(path) else base
-    return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or "volume"
-
-
-def _opened(path, role, **properties):
-    """A source of a file that the case deletes when it has no role any more."""
-    from paraview import simple
-
-    source = open_file(path, **properties)
-    try:
-        _require_kind(source, role)
-    except ValueError:
-        simple.Delete(source)
-        raise
-    source.SMProxy.SetAnnotation(OPENED, "1")
-    return source
-
-
-def _require_kind(source, role):
-    """Raises `ValueError` if the data of a source cannot have a role."""
-    source.UpdatePipeline()
-    kind, wanted = (("vtkPointSet", "points") if role in POINT_ROLES else
-                    ("vtkImageData", "a volume"))
-    if not source.GetDataInformation().DataSetTypeIsA(kind):
-        data = source.GetDataInformation().GetPrettyDataTypeString()
-        raise ValueError(f"{role} must be {wanted}; {_stem(source)} is {data}")
-
-
-def _marks(source):
-    """The roles of a source in cases, and the names of the cases: a list of pairs."""
-    proxy = source.SMProxy
-    keys = [proxy.GetAnnotationKeyAt(i) for i in range(proxy.GetNumberOfAnnotations())]
-    return [tuple(key[len(MARK):].split(".")) for key in keys if key.startswith(MARK)]
-
-
-def _settings_at(bent):
-    """The settings of a case that its Free-Form Deformation keeps."""
-    proxy = bent.SMProxy
-    keys = [proxy.GetAnnotationKeyAt(i) for i in range(proxy.GetNumberOfAnnotations())]
-    return {key[len(SETTING):]: json.loads(proxy.GetAnnotation(key)) for key in keys
-            if key.startswith(SETTING)}
-
-
-def _values(source):
-    """What a source was told, to see whether it changed: its identity and its properties."""
-    found = [source.SMProxy.GetGlobalIDAsString()]
-    for name in source.ListProperties():
-        own = source.SMProxy.GetProperty(name)
-        if own is None or own.GetInformationOnly() or name == "Evidence":  # which moves nothing
-            continue
-        value = source.GetPropertyValue(name)
-        if own.IsA("vtkSMProxyProperty"):
-            value = [own.GetProxy(i) and own.GetProxy(i).GetGlobalIDAsString()
-                     for i in range(own.GetNumberOfProxies())]
-        found.append((name, str(value)))
-    return found
 
 
 def _kept(function):
@@ -248,7 +159,8 @@ class Case(Steps):
     tumour_labels = _Setting([], _labels)
     cavity_labels = _Setting([], _labels)
     landmarks_judge = _Setting(False, lambda name, value: bool(value))
-    resection, judged, exported = _Result(None), _Result(None), _Result(())
+    resection, judged = _Result(None), _Result(None)
+    exported, reported = _Result(()), _Result("")
 
     def __init__(self, **roles):
         unknown = sorted(set(roles) - set(ROLES))
@@ -262,7 +174,7 @@ class Case(Steps):
     def _begin(self, name):
         self._name = name
         self._settings = {}  # until there is a deformation to keep them
-        self._loose = []  # sources of former roles
+        self._loose, self._unnamed = [], []  # sources of former roles; new ones and their names
         self.proposal = []
         self._results = {}  # by name: the state that each belongs to, and the result
 
@@ -274,10 +186,10 @@ class Case(Steps):
 
         Returns a `Case`, the first of several. Raises `ValueError` if the source belongs to none.
         """
-        marks = _marks(source)
-        if not marks:
+        found = marks(source)
+        if not found:
             raise ValueError("the source belongs to no case")
-        return cls._named(marks[0][1])
+        return cls._named(found[0][1])
 
     @classmethod
     def _named(cls, name):
@@ -288,7 +200,7 @@ class Case(Steps):
     @classmethod
     def all(cls):
         """All cases of the session, a list."""
-        names = {name: None for source in _proxies() for _, name in _marks(source)}
+        names = {name: None for source in sources() for _, name in marks(source)}
         return [cls._named(name) for name in names]
 
     @classmethod
@@ -341,7 +253,7 @@ class Case(Steps):
         Raises `ValueError` if a state of the case was loaded beside it.
         """
         key = self._key(role)
-        found = [source for source in _proxies() if source.SMProxy.HasAnnotation(key)]
+        found = [source for source in sources() if source.SMProxy.HasAnnotation(key)]
         if len(found) > 1 and role != "fit":  # a refinement may have replaced a fit
             raise ValueError("the session has this case twice, for a state of it was loaded beside "
                              "it: delete one, or reset the session before a state is loaded")
@@ -357,7 +269,7 @@ class Case(Steps):
         parts.append(bent.Lattice if bent else None)
         settings = [getattr(self, name) for name, kind in vars(Case).items()
                     if isinstance(kind, _Setting)]
-        return [_values(part) for part in parts if part], settings, self.opening_ball()
+        return [values_of(part) for part in parts if part], settings, self.opening_ball()
 
     bent = property(lambda self: self.part("bent"))
     comparison = property(lambda self: self.part("comparison"))
@@ -391,6 +303,8 @@ class Case(Steps):
 
     @_kept
     def _set_role(self, role, value):
+        from paraview import simple
+
         if role == "opening" and isinstance(value, (tuple, list)):
             centre, radius = value
             ball = list(vector("opening", centre)), positive("opening", radius)
@@ -398,23 +312,42 @@ class Case(Steps):
             self._keep("opening_ball", ball)
         elif role == "landmarks":
             rest, measured = self._landmark_pair(value)
+            self._refuse_loop("landmarks", rest)
+            self._refuse_loop("measured", measured)
             self._take("landmarks", rest, "landmarks at rest")
             self._take("measured", measured, "measured landmarks")
         else:
             names = {"traces": "traced points", "electrodes": "contacts"}
             source = self._source_of(value, role)
+            self._refuse_loop(role, source)
             self._take(role, source, names.get(role))
             if role == "opening":
                 self._keep("opening_ball", None)
         self._wire()
+        for source, name in self._unnamed:  # now former sources have given their names back
+            simple.RenameSource(free_name(name), source)
+        self._unnamed = []
+
+    def makes(self, source, role):
+        """Whether a source is made of what the case makes of that role."""
+        if role in ("reference", "tumour"):  # the deformation does not depend on these
+            return False
+        made = [part for part in (self.bent, self.fit_source(), self.part("joined")) if part]
+        inputs = inputs_of(source)
+        return any(part.SMProxy.GetGlobalID() in inputs for part in made)
+
+    def _refuse_loop(self, role, source):
+        if source is not None and self.makes(source, role):
+            raise ValueError(f"{role} must not be made of the bent volume or its fit, which depend "
+                             f"on it; {stem(source)} is")
 
     @staticmethod
     def _source_of(value, role):
         """The source of a role: a file is opened."""
         if isinstance(value, (str, os.PathLike)):
-            return _opened(value, role)
+            return opened(value, role)
         if value is not None:
-            _require_kind(value, role)
+            require_kind(value, role)
         return value
 
     @staticmethod
@@ -423,8 +356,8 @@ class Case(Steps):
         if isinstance(value, (str, os.PathLike)) and os.path.isfile(value) and holds_both(value):
             path = os.fspath(value)
             if ending(path) == ".tag":
-                return _opened(path, "landmarks"), _opened(path, "measured", Volume=2)
-            return tuple(_opened(path, "landmarks", PositionColumns=columns)
+                return opened(path, "landmarks"), opened(path, "measured", Volume=2)
+            return tuple(opened(path, "landmarks", PositionColumns=columns)
                          for columns in landmark_columns(path))
         pair = value if isinstance(value, (tuple, list)) else (value, None)
         return tuple(Case._source_of(one, role)
@@ -435,17 +368,15 @@ class Case(Steps):
         former = self.part(role)
         if former is not None and (keep is None or former.SMProxy is not keep.SMProxy):
             former.SMProxy.RemoveAnnotation(self._key(role))
-            if former.SMProxy.HasAnnotation(OPENED) and not _marks(former):
+            if former.SMProxy.HasAnnotation(OPENED) and not marks(former):
                 self._loose.append(former)
 
     def _take(self, role, source, name=None):
         """Gives a role to a source, and a name to one that the case opened."""
-        from paraview import simple
-
         self._forget(role, keep=source)
         if source is not None:
-            if source.SMProxy.HasAnnotation(OPENED) and not _marks(source):  # it is new
-                simple.RenameSource(_free_name(name or _stem(source)), source)
+            if source.SMProxy.HasAnnotation(OPENED) and not marks(source):  # it is new
+                self._unnamed.append((source, name or stem(source)))
             source.SMProxy.SetAnnotation(self._key(role), "1")
 
     def _delete_loose(self):
@@ -470,7 +401,7 @@ class Case(Steps):
                 simple.Delete(source)
             return None
         if source is None:
-            source = getattr(simple, kind)(registrationName=_free_name(name), **inputs)
+            source = getattr(simple, kind)(registrationName=free_name(name), **inputs)
             source.SMProxy.SetAnnotation(self._key(part), "1")
             return source
         self._set(source, inputs)
@@ -480,11 +411,11 @@ class Case(Steps):
     def _wire(self):
         """Makes the pipeline agree with roles and settings. Nothing that agrees is touched."""
         volume = self.volume
-        name = _stem(volume) if volume else ""
+        name = stem(volume) if volume else ""
         former = self.bent
         if volume is None:
             if former is not None:
-                self._settings = _settings_at(former)
+                self._settings = settings_at(former)
             for part in ("fit", *_MADE):
                 self._made(part, "", "", Input=None)
         bent = self._made("bent", "FreeFormDeformation", f"{name} bent", Input=volume)
@@ -602,7 +533,7 @@ class Case(Steps):
         base = former.Base if is_kind(former, "FitDeformation") else former
         values = {name: value for name, value in self._measurements().items() if value is not None}
         source = own(simple.FitDeformation(
-            registrationName=_free_name("fit"), Input=bent.Input, **_shared(bent), **values,
+            registrationName=free_name("fit"), Input=bent.Input, **_shared(bent), **values,
             **({"Base": base} if base else {})))
         source.UpdatePipeline()
         problem = reason_of(source)
@@ -656,7 +587,7 @@ class Case(Steps):
         from .views import world_axes
 
         os.makedirs(folder, exist_ok=True)
-        name = os.path.join(folder, _stem(self.volume))
+        name = os.path.join(folder, stem(self.volume))
         baked = simple.BakeDeformation(Input=self.bent, Interpolation="Cubic")
         try:
             save_volume(baked, f"{name}_bent.nii.gz")

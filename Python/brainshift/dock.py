@@ -6,9 +6,11 @@ same; after each order the whole case is told again, as `_told` describes.
 """
 
 import json
+import os
 import traceback
 
-from .cases import POINT_ROLES, Case
+from .cases import Case
+from .casesources import POINT_ROLES
 from .points import read_from
 from .roles import ROLES, holds_both, proposed
 
@@ -42,8 +44,8 @@ _ORANGE, _BLUE = (0.902, 0.624, 0.0), (0.0, 0.447, 0.698)
 _RADIUS, _LEAST_RADIUS = 30.0, 10.0
 
 #: The case; the connection that it is of; the last case that the user began, which is kept while it
-#: is empty; the path of the last report; the cases by name, for they know what they found.
-_in_hand = {"case": None, "connection": None, "new": None, "report": "", "known": {}}
+#: is empty; the cases by name, for they know what they found.
+_in_hand = {"case": None, "connection": None, "new": None, "known": {}}
 
 
 def _cases():
@@ -87,9 +89,9 @@ def _number(source):
 # What is told --------------------------------------------------------------------------------
 
 
-def _has_kind(source, role):
+def _may_have(case, source, role):
     """Whether a source may have a role, as far as it was read."""
-    if source.SMProxy.GetXMLName() in _RESULTS:
+    if source.SMProxy.GetXMLName() in _RESULTS or case.makes(source, role):
         return False
     information = source.GetDataInformation()
     return information.DataSetTypeIsA("vtkPointSet" if role in POINT_ROLES else "vtkImageData")
@@ -104,7 +106,7 @@ def _told_roles(case):
     for role, (label, tip) in _ROLES.items():
         chosen = case.part(role)
         choices = [source for source in sources
-                   if source == chosen or _has_kind(source, role)]
+                   if source == chosen or _may_have(case, source, role)]
         yield {"role": role, "label": label, "tip": tip, "chosen": _number(chosen),
                "choices": [[_number(source), _name(source)] for source in choices]}
 
@@ -124,14 +126,17 @@ def _told_settings(case):
 
 def _told_steps(case):
     steps = [step._asdict() for step in case.steps]
-    missing = [role for role in ("volume", "tumour", "cavity") if getattr(case, role) is None]
+    missing = [role for role in ("tumour", "cavity") if getattr(case, role) is None]
+    lacks = ", ".join(filter(None, [case.lacks_bent(), *(f"a {role}" for role in missing)]))
     found = repr(case.resection).removeprefix("Resection: ") if case.resection else ""
-    steps.append({"name": "Tumour left", "lacks": ", ".join(f"a {role}" for role in missing),
-                  "found": found, "state": "lacks" if missing else "done" if found else "ready"})
-    lacks = "" if case.volume else "a volume"
-    steps.append({"name": "Report", "lacks": lacks, "found": _in_hand["report"],
-                  "state": "lacks" if lacks else "ready"})
+    steps.append(_step("Tumour left", lacks, found))
+    steps.append(_step("Report", case.lacks_bent(), case.reported))
     return steps
+
+
+def _step(name, lacks, found):
+    state = "lacks" if lacks else "done" if found else "ready"
+    return {"name": name, "state": state, "lacks": lacks, "found": found}
 
 
 def _told(case):
@@ -167,11 +172,10 @@ def _choose(case, role, source=0, path=""):
 
 
 def _choose_landmarks(case, role, chosen):
-    rest, measured = case.landmarks or (None, None)
-    path = chosen if isinstance(chosen, str) else getattr(chosen, "FileName", "")
-    if path and holds_both(path) and (isinstance(chosen, str) or not (rest and measured)):
-        case.landmarks = path
+    if isinstance(chosen, str) and os.path.isfile(chosen) and holds_both(chosen):
+        case.landmarks = chosen
         return
+    rest, measured = case.landmarks or (None, None)
     pair = (chosen, measured) if role == "landmarks" else (rest, chosen)
     case.landmarks = pair if any(pair) else None
 
@@ -255,20 +259,28 @@ def _run(case, step, **settings):
     elif step == "Report":
         from .reporting import report
 
-        _in_hand["report"] = report(case, **settings)
+        case.reported = report(case, **settings)
     else:
         case.run(step, **settings) if step not in ("Look", "Measure") else (
             _look if step == "Look" else _measure)(case)
 
 
 def _accept(case, roles):
-    """Takes files over, by role."""
-    before = case.volume
+    """Takes files over, by role: into a new case if there is another volume already. What fails is
+    said at the end."""
+    if roles.get("volume") and case.volume is not None:
+        case = _begin(case)
+    problems = []
     for role in ROLES:
         if roles.get(role):
-            setattr(case, role, roles[role])
-    if case.volume is not None and case.volume != before:
+            try:
+                setattr(case, role, roles[role])
+            except (ValueError, OSError) as error:
+                problems.append(f"{_ROLES[role][0]}: {error}")
+    if case.bent is not None:
         _look_first(case)
+    if problems:
+        raise ValueError("; ".join(problems))
 
 
 def _select(case, name):
@@ -276,9 +288,11 @@ def _select(case, name):
 
 
 def _begin(_):
+    """Another case, which is in hand from now on."""
     case = Case()
     _in_hand.update(case=case, new=case)
     _in_hand["known"][case.name] = case
+    return case
 
 
 def _sort(paths):
@@ -316,4 +330,7 @@ def answer(text):
             told = _told(_case())
         except ValueError as error:  # the session has the case twice
             problem = problem or str(error)
+        except Exception as error:
+            traceback.print_exc()
+            problem = problem or f"{type(error).__name__}: {error}"
     return json.dumps({"problem": problem[:1].upper() + problem[1:], "told": told})

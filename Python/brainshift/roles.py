@@ -203,7 +203,9 @@ def proposed(paths):
     folders of DICOM.
     """
     if isinstance(paths, str):
-        paths = [os.path.join(paths, name) for name in os.listdir(paths)]
+        paths = [paths]
+    if len(paths) == 1 and os.path.isdir(paths[0]) and not _is_series(paths[0]):
+        paths = [os.path.join(paths[0], name) for name in os.listdir(paths[0])]
     found, taken = [], {}
     for path in sorted(paths):
         name = os.path.basename(os.path.normpath(path))
@@ -223,12 +225,12 @@ def proposed(paths):
 
 def open_file(path, **properties):
     """A ParaView source of a file. Raises `FileNotFoundError` or `ValueError` with the reason."""
-    from paraview import simple
+    from paraview import servermanager, simple
 
     from .files import reason_of
 
     path = os.fspath(path)
-    if not os.path.exists(path):
+    if not (os.path.exists(path) or servermanager.ActiveConnection.IsRemote()):
         raise FileNotFoundError(f"there is no {path}")
     if ending(path) in POINTS or path.lower().endswith(".json"):
         source = simple.LandmarkReader(FileName=path, **properties)

@@ -34,10 +34,16 @@ class Steps:
             found.append(Step(name, state, lacks, line))
         return found
 
+    def lacks_bent(self):
+        """What is missing if there is no bent volume; an empty text if there is one."""
+        if self.bent is not None:
+            return ""
+        return "a volume" if self.volume is None else "its bent volume: choose the volume again"
+
     def _step_look(self):
         volume = self.volume
-        if volume is None:
-            return "a volume", ""
+        if self.lacks_bent():
+            return self.lacks_bent(), ""
         volume.UpdatePipeline()  # after a state was loaded it has no extent yet
         information = volume.GetDataInformation()
         low_x, high_x, low_y, high_y, low_z, high_z = information.GetExtent()
@@ -48,8 +54,8 @@ class Steps:
                     + " x ".join(f"{span:.0f}" for span in spans) + " mm")
 
     def _step_measure(self):
-        if self.bent is None:
-            return "a volume", ""
+        if self.lacks_bent():
+            return self.lacks_bent(), ""
         lines = []
         for measure, name in ((self.trace_distance, "traced points"),
                               (self.contact_distance, "contacts")):
@@ -96,8 +102,8 @@ class Steps:
     def _step_fit(self):
         points = self.traces is not None or self.electrodes is not None
         pair = all(self.landmarks or (None,)) and not self.landmarks_judge
-        if self.volume is None:
-            return "a volume", ""
+        if self.lacks_bent():
+            return self.lacks_bent(), ""
         if not (points or pair):
             return "traces, electrodes, or landmarks with both positions", ""
         if points and not self.cortex():
@@ -109,8 +115,8 @@ class Steps:
         return "", reason_of(fit) or repr(Fit(fit)).removeprefix("Fit: ")
 
     def _step_by_hand(self):
-        if self.bent is None:
-            return "a volume", ""
+        if self.lacks_bent():
+            return self.lacks_bent(), ""
         bent = figures_of(self.bent)
         count = len(bent.Strokes) // _NUMBERS_PER_STROKE
         if not count:
@@ -119,8 +125,8 @@ class Steps:
                     f"smallest Jacobian determinant {bent.MinimumJacobian:.2f}")
 
     def _step_refine(self):
-        if self.volume is None or self.reference is None:
-            return "a volume" if self.volume is None else "a reference", ""
+        if self.lacks_bent() or self.reference is None:
+            return self.lacks_bent() or "a reference", ""
         if not is_kind(self.bent.Lattice, "RefinedLattice"):
             return "", ""
         bent = figures_of(self.bent)
@@ -128,12 +134,12 @@ class Steps:
                     f"determinant {bent.MinimumJacobian:.2f}")
 
     def _step_judge(self):
-        if not all(self.landmarks or (None,)):
-            return "landmarks with both positions", ""
+        if not all(self.landmarks or (None,)) or self.lacks_bent():
+            return self.lacks_bent() or "landmarks with both positions", ""
         return "", "" if self.judged is None else self.judged
 
     def _step_export(self):
-        return "" if self.volume else "a volume", (
+        return self.lacks_bent(), (
             f"{len(self.exported)} files: " + ", ".join(
                 os.path.basename(file) for file in self.exported) if self.exported else "")
 

@@ -272,6 +272,38 @@ def test_errors_name_what_is_wrong():
     assert case.brain_labels == []
     refused(ValueError, ["belongs to no case"],
             lambda: brainshift.Case.of(simple.Sphere()))
+    refused(ValueError, ["tumour must be a volume", "pointer"],
+            lambda: setattr(case, "tumour", path("pointer.csv")))
+    refused(ValueError, ["traces must be points", "cavity"],
+            lambda: setattr(case, "traces", path("cavity.nii.gz")))
+    assert "pointer" not in names() and "cavity" not in names(), names()
+
+
+def test_a_role_is_not_made_of_what_it_makes():
+    """A loop in the pipeline would end ParaView."""
+    clear()
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),
+                           traces=path("pointer.csv"), electrodes=path("ecog_contacts.tsv"))
+    case.fit()
+    baked = simple.BakeDeformation(Input=case.bent)
+    for role, source in (("volume", baked), ("brain", baked), ("cavity", baked),
+                         ("traces", case.part("joined"))):
+        refused(ValueError, [f"{role} must not be made of"],
+                lambda: setattr(case, role, source))  # noqa: B023
+    case.reference = baked  # which nothing of the deformation depends on
+    assert case.comparison.Reference == baked
+
+
+def test_a_bent_volume_that_was_deleted_comes_back_with_its_volume():
+    clear()
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), reference=path("sub-1_postop.nii.gz"))
+    simple.Delete(case.comparison)
+    simple.Delete(case.bent)
+    for step in case.steps:
+        assert step.state == "lacks" and "choose the volume again" in step.lacks, step
+    case.volume = case.volume
+    assert case.bent is not None and case.comparison is not None
+    assert case.steps[0].state == "done"
 
 
 run_tests(globals())

@@ -169,6 +169,9 @@ def a_folder_is_sorted_and_corrected():
     assert hand.click("BrainShiftCaseNew")
     settled()
     assert chosen("Volume") == "\u2013" and hand.entries("BrainShiftCases")[0] == "New case"
+    assert hand.choose_by_keys("BrainShiftCases", "sub-1_T1w")  # which the files must not change
+    settled()
+    first = chosen("Traces")
     hand.answer("BrainShiftProposal", "BrainShiftProposalOk", ("BrainShiftProposal2", "None"))
     assert hand.drop(DOCK, FOLDER)
     window.until(lambda: chosen("Volume") == "sub-1_T1w 2", "the case of the folder")
@@ -181,6 +184,7 @@ def a_folder_is_sorted_and_corrected():
     assert chosen("Landmarks") == "landmarks at rest" and chosen("Measured") == "measured landmarks"
     assert chosen("Reference") == "sub-1_postop", chosen("Reference")
     assert len(hand.entries("BrainShiftCases")[1]) == 2
+    assert brainshift.Case.all()[0].traces is not None and first == "traced points"
     assert hand.click("BrainShiftCaseJudge")
     settled()
     assert "of 8 landmarks" in text_of("Judge"), text_of("Judge")

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sources of the pipeline as a case sees them: their marks, names, kinds and inputs."""
+
+import itertools
+import json
+import os
+
+from .roles import ending, open_file
+
+#: Annotations of proxies, which state files keep: `MARK` + role + "." + name of the case, `SETTING`
+#: + name, at the Free-Form Deformation, a setting as JSON, and `OPENED` is at sources that a case
+#: opened itself.
+MARK, SETTING, OPENED = "BrainShift.Case.", "BrainShift.CaseSetting.", "BrainShift.CaseOpened"
+
+#: Roles that points have. All others are volumes.
+POINT_ROLES = ("traces", "landmarks", "measured", "electrodes")
+
+
+def sources():
+    """All sources of the pipeline."""
+    from paraview import simple
+
+    return list(simple.GetSources().values())
+
+
+def free_name(name):
+    """A name that no source of the pipeline has."""
+    from paraview import simple
+
+    taken = {known for known, _ in simple.GetSources()}
+    others = (f"{name} {number}" for number in itertools.count(2))
+    return next(each for each in itertools.chain([name], others) if each not in taken)
+
+
+def stem(source):
+    """The name of a source's file without its ending, or the name of the source."""
+    from paraview import servermanager
+
+    for name in ("FileName", "FileNames"):
+        value = getattr(source, name, None)
+        if value:
+            path = value if isinstance(value, str) else value[0]
+            base = os.path.basename(os.path.normpath(path))
+            return base[:len(base) - len(ending(path))] if ending(path) else base
+    return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or "volume"
+
+
+def opened(path, role, **properties):
+    """A source of a file that the case deletes when it has no role any more."""
+    from paraview import simple
+
+    source = open_file(path, **properties)
+    try:
+        require_kind(source, role)
+    except ValueError:
+        simple.Delete(source)
+        raise
+    source.SMProxy.SetAnnotation(OPENED, "1")
+    return source
+
+
+def require_kind(source, role):
+    """Raises `ValueError` if the data of a source cannot have a role."""
+    source.UpdatePipeline()
+    kind, wanted = (("vtkPointSet", "points") if role in POINT_ROLES else
+                    ("vtkImageData", "a volume"))
+    if not source.GetDataInformation().DataSetTypeIsA(kind):
+        data = source.GetDataInformation().GetPrettyDataTypeString()
+        raise ValueError(f"{role} must be {wanted}; {stem(source)} is {data}")
+
+
+def marks(source):
+    """The roles of a source in cases, and the names of the cases: a list of pairs."""
+    proxy = source.SMProxy
+    keys = [proxy.GetAnnotationKeyAt(i) for i in range(proxy.GetNumberOfAnnotations())]
+    return [tuple(key[len(MARK):].split(".")) for key in keys if key.startswith(MARK)]
+
+
+def settings_at(bent):
+    """The settings of a case that its Free-Form Deformation keeps."""
+    proxy = bent.SMProxy
+    keys = [proxy.GetAnnotationKeyAt(i) for i in range(proxy.GetNumberOfAnnotations())]
+    return {key[len(SETTING):]: json.loads(proxy.GetAnnotation(key)) for key in keys
+            if key.startswith(SETTING)}
+
+
+def inputs_of(source):
+    """All proxies that a source is made of, by their numbers, and the source itself."""
+    found, waiting = {}, [source.SMProxy]
+    while waiting:
+        proxy = waiting.pop()
+        if proxy is None or proxy.GetGlobalID() in found:
+            continue
+        found[proxy.GetGlobalID()] = proxy
+        iterator = proxy.NewPropertyIterator()
+        iterator.UnRegister(None)
+        iterator.Begin()
+        while not iterator.IsAtEnd():
+            value = iterator.GetProperty()
+            if value.IsA("vtkSMProxyProperty"):
+                waiting += [value.GetProxy(i) for i in range(value.GetNumberOfProxies())]
+            iterator.Next()
+    return found
+
+
+def values_of(source):
+    """What a source was told, to see whether it changed: its identity and its properties."""
+    found = [source.SMProxy.GetGlobalIDAsString()]
+    for name in source.ListProperties():
+        own = source.SMProxy.GetProperty(name)
+        if own is None or own.GetInformationOnly() or name == "Evidence":  # which moves nothing
+            continue
+        value = source.GetPropertyValue(name)
+        if own.IsA("vtkSMProxyProperty"):
+            value = [own.GetProxy(i) and own.GetProxy(i).GetGlobalIDAsString()
+                     for i in range(own.GetNumberOfProxies())]
+        found.append((name, str(value)))
+    return found
