@@ -99,7 +99,10 @@ void CaseOrders::endEdits()
 
 void CaseOrders::give(const QString& order, const QJsonObject& arguments, const QString& label)
 {
-  this->endEdits();
+  if (order != "select" && order != "begin") // which only look elsewhere
+  {
+    this->endEdits();
+  }
   {
     const Waiting cursor;
     if (label.isEmpty())

@@ -147,8 +147,8 @@ void CaseDock::settle()
   {
     this->comeToFront();
   }
-  this->connect(this->toggleViewAction(), &QAction::toggled, this,
-    [](bool on) { pqApplicationCore::instance()->settings()->setValue(VisibleSetting, on); });
+  // Not its signal toggled, which the end of the program sends, too.
+  this->connect(this->toggleViewAction(), &QAction::triggered, this, &CaseDock::remember);
 }
 
 void CaseDock::remember()

@@ -117,6 +117,7 @@ void StepRows::show(const QJsonArray& told)
     row.text->setText(
       lacks.isEmpty() ? step["found"].toString() : StepRows::tr("Needs %1").arg(lacks));
     row.text->setEnabled(lacks.isEmpty());
+    row.button->setAccessibleDescription(row.text->text());
   }
 }
 
