@@ -21,6 +21,7 @@ constexpr double FarthestStep = 0.45;   // times the pitch, from where a neighbo
 constexpr double StepMemory = 0.5;      // of a step along the sheet, against the new one
 constexpr double EmptyRow = 1e-3;       // of misfit, for a row without contacts at an end
 constexpr double OtherFirst = 1e-4;     // the same, for a first number that is not 1
+constexpr double ShortRows = 0.15; // the same, for rows of two: a strip that bends looks like it
 
 using Cell = std::pair<int, int>;
 
@@ -265,9 +266,11 @@ RankedNumbering ranking(const std::vector<glm::dvec3>& positions, const std::vec
   const auto without = std::count(order.places.begin(), order.places.end(), std::nullopt);
   const glm::ivec2 empty = emptyRows(order);
   const bool isFromOther = numbering.first != 1;
+  const bool hasShortRows = numbering.columns == 2 && numbering.rows > 2;
   return { numbering,
     misfit(positions, order) + static_cast<double>(without) / static_cast<double>(numbers.size()) +
-      EmptyRow * (empty.x + empty.y) + (isFromOther ? OtherFirst : 0.0) };
+      EmptyRow * (empty.x + empty.y) + (isFromOther ? OtherFirst : 0.0) +
+      (hasShortRows ? ShortRows : 0.0) };
 }
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,12 +16,14 @@ namespace brainshift
 namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int PerPlace = 5;           // two numbers at rest, three bent
-constexpr int AtRest = 2;             // of these
-constexpr int Rounds = 4;             // of weights
-constexpr double OutlierFactor = 3.4; // 99 % of a normal distribution in space
-constexpr double OffMm = 1.5;         // less is no contact off the cortex
-constexpr double OffFactor = 3.0;     // times what is expected
+constexpr int PerPlace = 5;            // two numbers at rest, three bent
+constexpr int AtRest = 2;              // of these
+constexpr int Rounds = 4;              // of weights
+constexpr double OutlierFactor = 3.4;  // 99 % of a normal distribution in space
+constexpr double DoubtedWeight = 0.5;  // of a contact that is farther off than OutlierFactor
+constexpr std::size_t MostDoubted = 4; // one contact in so many
+constexpr double OffMm = 1.5;          // less is no contact off the cortex
+constexpr double OffFactor = 3.0;      // times what is expected
 constexpr double LeastDamping = 1e-9;
 constexpr double MostDamping = 1e6;
 constexpr double FillSlope = 0.01; // weight of first differences against second ones
@@ -138,21 +141,18 @@ class SheetSolver
 public:
   SheetSolver(const std::vector<Sheet>& sheets, const RestSurface& surface,
     const std::vector<SurfacePoint>& anchors, const SheetSettings& settings)
-    : Surface(surface)
+    : Sheets(sheets)
+    , Surface(surface)
     , Settings(settings)
     , Prior(anchors, settings)
   {
     for (const Sheet& sheet : sheets)
     {
       this->addSprings(sheet);
-      const std::vector<glm::dvec3> filled = filledSheet(sheet);
-      this->At.bent.insert(this->At.bent.end(), filled.begin(), filled.end());
       this->Measured.insert(this->Measured.end(), sheet.contacts.begin(), sheet.contacts.end());
     }
     this->Weights.assign(this->Measured.size(), 1.0);
-    this->At.rest = this->At.bent;
-    this->At.normals.resize(this->At.bent.size());
-    this->project(this->At);
+    this->begin();
   }
 
   std::vector<SheetPlace> solve()
@@ -162,11 +162,65 @@ public:
       this->minimise();
       this->judge();
     }
+    if (this->leaveOutDoubted())
+    {
+      this->begin();
+      this->minimise();
+      this->judge();
+    }
     return this->Found;
   }
 
 private:
   std::size_t count() const { return this->Measured.size(); }
+
+  // Gives doubted contacts no weight at all: a contact that floats leads the sheet aside along the
+  // cortex, where little leads it back. Returns whether there are any, and not too many.
+  bool leaveOutDoubted()
+  {
+    std::vector<std::size_t> doubted;
+    std::size_t measured = 0;
+    for (std::size_t i = 0; i < this->count(); ++i)
+    {
+      measured += this->Measured[i] ? 1 : 0;
+      if (this->Measured[i] && (this->Weights[i] < DoubtedWeight || this->Found[i].isOff()))
+      {
+        doubted.push_back(i);
+      }
+    }
+    if (doubted.empty() || MostDoubted * doubted.size() > measured)
+    {
+      return false;
+    }
+    for (const std::size_t i : doubted)
+    {
+      this->Weights[i] = 0.0;
+    }
+    return true;
+  }
+
+  // Begins at the contacts that count, and at the nearest points of the cortex.
+  void begin()
+  {
+    this->At.bent.clear();
+    std::size_t first = 0;
+    for (Sheet sheet : this->Sheets)
+    {
+      for (std::size_t k = 0; k < sheet.contacts.size(); ++k)
+      {
+        if (!(this->Weights[first + k] > 0.0))
+        {
+          sheet.contacts[k].reset();
+        }
+      }
+      first += sheet.contacts.size();
+      const std::vector<glm::dvec3> filled = filledSheet(sheet);
+      this->At.bent.insert(this->At.bent.end(), filled.begin(), filled.end());
+    }
+    this->At.rest = this->At.bent;
+    this->At.normals.resize(this->At.bent.size());
+    this->project(this->At);
+  }
 
   void addSprings(const Sheet& sheet)
   {
@@ -419,6 +473,7 @@ private:
     }
   }
 
+  const std::vector<Sheet>& Sheets;
   const RestSurface& Surface;
   const SheetSettings& Settings;
   ShiftPrior Prior;

@@ -32,6 +32,7 @@ constexpr int OpeningPort = 2;
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t MostNamed = 6;       // contacts in a sentence
 constexpr std::size_t MostContacts = 5000; // of all electrodes: more are no contacts
+constexpr double DeepestOnCortexMm = 15.0; // below it at rest: brains sink less
 constexpr const char* NotRun = "The contacts were not fitted yet";
 
 // The triangles of a surface; polygons become fans, strips are left out.
@@ -176,10 +177,25 @@ struct vtkElectrodeGrids::State
   const RestCortex* Cortex = nullptr;
   std::vector<Contact> Contacts;
   std::vector<ContactArray> Arrays;
+  std::vector<double> DeepestMm; // below the cortex at rest, of each electrode
   std::vector<Result> Results;
   std::string Problem = NotRun;
   std::string Warning;
   std::string WarnedOf;
+
+  void findDeepest(const DepthBelowCortex& depth)
+  {
+    this->DeepestMm.clear();
+    for (const ContactArray& array : this->Arrays)
+    {
+      double deepest = 0.0;
+      for (const std::size_t contact : array.members)
+      {
+        deepest = std::max(deepest, depth(this->Contacts[contact].position));
+      }
+      this->DeepestMm.push_back(deepest);
+    }
+  }
 
   // Puts a contact that is on no grid where it was measured.
   void addAlone(std::size_t contact, std::size_t array)
@@ -237,6 +253,39 @@ struct vtkElectrodeGrids::State
     this->Warning = joined(sentences, ". ");
   }
 
+  // Whether a contact lies on the cortex: one of a grid that is not off, or of a strip or an
+  // electrode without an order that does not go deep, as a shaft that bends would.
+  bool isOnCortex(const Result& result) const
+  {
+    const ArrayKind kind = this->Arrays[result.array].kind;
+    const bool isFlat = kind == ArrayKind::Strip || kind == ArrayKind::Unknown;
+    return isFlat ? this->DeepestMm[result.array] < DeepestOnCortexMm
+                  : result.row > 0 && !result.place.isOff();
+  }
+
+  // Contacts on the cortex where they were measured, to be traced points.
+  void writeOnCortex(vtkPolyData* output) const
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> vertices;
+    vtkNew<vtkStringArray> labels;
+    labels->SetName("Label");
+    for (const Result& result : this->Results)
+    {
+      if (!result.isMissing && this->isOnCortex(result))
+      {
+        const glm::dvec3& at = result.measured;
+        const vtkIdType number = points->InsertNextPoint(at.x, at.y, at.z);
+        vertices->InsertNextCell(1, &number);
+        labels->InsertNextValue(result.label);
+      }
+    }
+    output->SetPoints(points);
+    output->SetVerts(vertices);
+    output->GetPointData()->AddArray(labels);
+  }
+
   void write(vtkPolyData* output, bool withMissing) const
   {
     std::vector<Result> results = this->Results;
@@ -290,6 +339,7 @@ vtkElectrodeGrids::vtkElectrodeGrids()
   : Internal(std::make_unique<State>())
 {
   this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(2);
 }
 
 vtkElectrodeGrids::~vtkElectrodeGrids() = default;
@@ -467,6 +517,7 @@ void vtkElectrodeGrids::Fit(vtkInformationVector** inputs)
   };
   state.Arrays = recogniseArrays(state.Contacts, hints, depth);
   state.Results.assign(state.Contacts.size(), {});
+  state.findDeepest(depth);
   std::vector<Sheet> sheets;
   std::vector<std::size_t> numbers;
   std::vector<glm::dvec3> onGrids;
@@ -558,7 +609,12 @@ int vtkElectrodeGrids::RequestData(
   }
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   state.write(output, this->ShowMissing);
-  nameWorldAxes(output, axesOf(inputs[0], this->PointAxes));
+  vtkPolyData* onCortex = vtkPolyData::GetData(outputs, 1);
+  state.writeOnCortex(onCortex);
+  for (vtkPolyData* each : { output, onCortex })
+  {
+    nameWorldAxes(each, axesOf(inputs[0], this->PointAxes));
+  }
   state.warn(this->DoubtsAboutSides(inputs));
   warnAnew(this, state.Warning, state.WarnedOf);
   return 1;

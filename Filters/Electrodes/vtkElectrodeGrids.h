@@ -10,8 +10,8 @@
  *
  * Contacts of a grid are fitted with their sheet (SheetFit.h). Others stay where they were.
  *
- * Output: a point for each contact in the order of the input, at rest, to be the Rest Landmarks
- * of a Fit Deformation whose Measured Landmarks and Traces are input 0. Its point arrays:
+ * Output 0: a point for each contact in the order of the input, at rest, to be the Rest Landmarks
+ * of a Fit Deformation whose Measured Landmarks are input 0. Its point arrays:
  *
  * - Label; Array (the name of the electrode) and Electrode (its number, from 1 on, in the order of
  *   GetElectrodes); Kind ("grid", "strip", "depth", "unknown"); Row and Column (from 1 on;
@@ -23,6 +23,11 @@
  * - Weight: 1, or 0 for a contact that a fit must leave out
  *
  * With ShowMissing, predicted contacts of grids follow, whose Measured is Bent.
+ *
+ * Output 1: the contacts that lie on the cortex, as measured, with Label: the Traces of that fit.
+ * Contacts of grids that float or are buried are left out, and so are shafts. Strips and electrodes
+ * without an order are there, unless one of their contacts is more than 15 mm below the cortex at
+ * rest.
  */
 #ifndef vtkElectrodeGrids_h
 #define vtkElectrodeGrids_h

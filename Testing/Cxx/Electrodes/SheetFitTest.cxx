@@ -269,6 +269,27 @@ TEST(SheetFit, SaysWhichContactsAreNotOnTheCortex)
   EXPECT_LT(glm::distance(places[20].bent, patient.grid.bent[20]), 1.0);
 }
 
+TEST(SheetFit, IsNotLedAsideByAContactThatFloats)
+{
+  for (int number = 0; number < 3; ++number)
+  {
+    const Patient patient({ 4, 5, 10.0, true }, number);
+    Sheet floating = patient.grid.sheet;
+    Sheet without = floating;
+    without.contacts[7].reset();
+    floating.contacts[7] = floating.contacts[7].value_or(glm::dvec3(0.0)) +
+      6.0 * WavyCortex::nearest(patient.grid.rest[7]).normal;
+    const std::vector<SurfacePoint> anchors = patient.anchors(without);
+    const std::vector<SheetPlace> led = fitSheets({ floating }, onCortex, anchors).front();
+    const std::vector<SheetPlace> right = fitSheets({ without }, onCortex, anchors).front();
+    EXPECT_TRUE(led[7].isOff());
+    for (std::size_t k = 0; k < led.size(); ++k)
+    {
+      EXPECT_LT(glm::distance(led[k].rest, right[k].rest), 0.3) << number << " " << k;
+    }
+  }
+}
+
 TEST(SheetFit, StretchesMoreIfItIsLessStiff)
 {
   const Patient patient({ 4, 8, 10.0 }, 2);
