@@ -253,6 +253,19 @@ def electrode_grids(width):
     return stage.side_by_side(views)
 
 
+def moments(width):
+    """A brain at two moments of a surgery, and half way between them."""
+    side = width // 3
+    volume = stage.brain()
+    steps = simple.Moments(Input=[stage.bend(volume), stage.bend(volume, stage.push())],
+                           Times=[0.0, 60.0])
+    views = []
+    for minutes in (0.0, 30.0, 60.0):
+        views.append(stage.brain_view(steps, side))
+        views[-1].ViewTime = minutes
+    return stage.side_by_side(views)
+
+
 def deform_geometry(width):
     """A mesh of the brain as loaded, and moved along, coloured by how far, before a slice."""
     side = width // 2
@@ -276,4 +289,5 @@ FIELD_SCENES = {
     "filter-landmark-files": landmark_files,
     "filter-surfaces-and-tracts": surfaces,
     "filter-electrode-grids": electrode_grids,
+    "filter-moments": moments,
     "filter-deform-geometry": deform_geometry}

@@ -14,7 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
+#include <sstream>
 #include <utility>
 
 namespace brainshift
@@ -290,6 +293,17 @@ glm::dvec3 placed(const glm::dvec3& written, const PointColumns& columns,
   return inAxes(axes, position);
 }
 
+// Whether words of columns say no more than which of two positions of a landmark they have. Who
+// chose the columns knows that.
+bool sayWhichPosition(const std::string& words)
+{
+  static const std::set<std::string> Known{ "rest", "measured", "meas", "pre", "preop", "post",
+    "postop", "intraop", "before", "after", "fixed", "moving" };
+  std::istringstream each(words);
+  return std::all_of(std::istream_iterator<std::string>(each), {},
+    [](const std::string& word) { return Known.count(word) > 0; });
+}
+
 // What the names of the columns of the position leave open.
 void notePosition(const PointColumns& columns, LandmarkList& list)
 {
@@ -299,7 +313,7 @@ void notePosition(const PointColumns& columns, LandmarkList& list)
   {
     list.notes.push_back(names + ", which are those of a template, not of the scanner");
   }
-  if (!columns.unknown.empty())
+  if (!sayWhichPosition(columns.unknown))
   {
     list.notes.push_back(
       names + "; it is not known what \"" + shownWords(columns.unknown) + "\" says of them");

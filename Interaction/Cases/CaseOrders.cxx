@@ -11,6 +11,9 @@
 #include <pqServer.h>
 #include <pqView.h>
 
+#include <vtkSMProxyManager.h>
+#include <vtkSMUndoStackBuilder.h>
+
 #include <QCoreApplication>
 #include <QCursor>
 #include <QEventLoop>
@@ -34,6 +37,15 @@ public:
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
 };
+
+// An order that was refused left nothing to undo but the way there and back.
+void forgetStep()
+{
+  if (vtkSMUndoStackBuilder* builder = vtkSMProxyManager::GetProxyManager()->GetUndoStackBuilder())
+  {
+    builder->Clear();
+  }
+}
 
 void drawAll()
 {
@@ -113,10 +125,15 @@ void CaseOrders::give(const QString& order, const QJsonObject& arguments, const 
     else
     {
       SCOPED_UNDO_SET(label);
+      const QJsonObject before = this->Told;
       this->ask(order, arguments);
       // What the window does next to a new display, also once it is drawn, belongs to the step.
       drawAll();
       QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents);
+      if (!this->Problem.isEmpty() && this->Told == before)
+      {
+        forgetStep();
+      }
     }
   }
   Q_EMIT this->changed();

@@ -11,6 +11,7 @@
 #include <vtkSMProxy.h>
 
 #include <cstring>
+#include <vector>
 
 namespace brainshift
 {
@@ -26,16 +27,26 @@ bool is(vtkSMProxy* proxy, const char* name)
   return std::strcmp(proxy->GetXMLName(), name) == 0;
 }
 
-// The fit that deforms the volume of a display; null if none does.
-vtkSMProxy* fitOf(vtkSMProxy* display)
+// The fits that deform a volume: one, or one for each of the moments of a surgery.
+void addFits(vtkSMProxy* source, std::vector<vtkSMProxy*>& fits)
 {
-  vtkSMProxy* source = inputOf(display, "Input");
-  while (source && !is(source, "FreeFormDeformation"))
+  if (is(source, "FreeFormDeformation"))
   {
-    source = inputOf(source, "Input");
+    vtkSMProxy* lattice = inputOf(source, "Lattice");
+    if (lattice && is(lattice, "FitDeformation"))
+    {
+      fits.push_back(lattice);
+    }
+    return;
   }
-  vtkSMProxy* lattice = source ? inputOf(source, "Lattice") : nullptr;
-  return lattice && is(lattice, "FitDeformation") ? lattice : nullptr;
+  vtkSMPropertyHelper inputs(source, "Input", /*quiet*/ true);
+  for (unsigned int i = 0; i < inputs.GetNumberOfElements(); ++i)
+  {
+    if (vtkSMProxy* input = inputs.GetAsProxy(i))
+    {
+      addFits(input, fits);
+    }
+  }
 }
 }
 
@@ -72,11 +83,18 @@ void EvidenceSwitch::follow(vtkObject* object)
   {
     return;
   }
-  vtkSMProxy* fit = fitOf(display);
-  if (fit && vtkSMPropertyHelper(fit, "Evidence").GetAsInt() == 0)
+  std::vector<vtkSMProxy*> fits;
+  if (vtkSMProxy* source = inputOf(display, "Input"))
   {
-    vtkSMPropertyHelper(fit, "Evidence").Set(1);
-    fit->UpdateVTKObjects();
+    addFits(source, fits);
+  }
+  for (vtkSMProxy* fit : fits)
+  {
+    if (vtkSMPropertyHelper(fit, "Evidence").GetAsInt() == 0)
+    {
+      vtkSMPropertyHelper(fit, "Evidence").Set(1);
+      fit->UpdateVTKObjects();
+    }
   }
 }
 }

@@ -215,8 +215,10 @@ pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view)
     }
     for (pqPipelineSource* consumer : visited[next]->getAllConsumers())
     {
-      // The output of another deformation is at other positions.
-      if (!isDeformation(consumer) && !visited.contains(consumer))
+      // The output of another deformation is at other positions, and so is that of another moment.
+      const bool isElsewhere =
+        isDeformation(consumer) || std::strcmp(consumer->getProxy()->GetXMLName(), "Moments") == 0;
+      if (!isElsewhere && !visited.contains(consumer))
       {
         visited.append(consumer);
       }

@@ -28,6 +28,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 class vtkSMProxy;
@@ -43,12 +44,14 @@ void followInOtherViews(vtkSMProxy* display);
 namespace
 {
 // The volume that a source passes on without new voxels: that of the file, for a filter that
-// deforms it or compares it.
+// deforms it, compares it, or has its moments.
 vtkSMProxy* volumeOf(vtkSMProxy* source)
 {
-  while (source &&
-    (std::strcmp(source->GetXMLName(), "FreeFormDeformation") == 0 ||
-      std::strcmp(source->GetXMLName(), "CompareVolumes") == 0))
+  const auto passesOn = [](vtkSMProxy* filter) {
+    const std::string_view name = filter->GetXMLName();
+    return name == "FreeFormDeformation" || name == "CompareVolumes" || name == "Moments";
+  };
+  while (source && passesOn(source))
   {
     source = vtkSMPropertyHelper(source, "Input").GetAsProxy();
   }

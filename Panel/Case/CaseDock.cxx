@@ -199,6 +199,12 @@ void CaseDock::addCases(QVBoxLayout* layout)
   this->connect(
     begin, &QPushButton::clicked, this, [this] { this->Orders->give("begin", {}, QString()); });
   row->addWidget(begin);
+  this->NewMoment = makePush("BrainShiftCaseNewMoment", tr("New Moment"),
+    tr("Begin another moment of the same surgery: it has the same volume and brain, and strokes, "
+       "fit and measurements of its own. Give it a name and a time under Settings."));
+  this->connect(this->NewMoment, &QPushButton::clicked, this,
+    [this] { this->Orders->give("moment", {}, tr("New Moment")); });
+  row->addWidget(this->NewMoment);
   row->addStretch(1);
   this->Cases = new QComboBox;
   this->Cases->setObjectName("BrainShiftCases");
@@ -352,7 +358,8 @@ void CaseDock::dropEvent(QDropEvent* event)
 
 void CaseDock::run(const QString& step)
 {
-  const bool changesPipeline = step == "Look" || step == "Measure" || step == "Fit";
+  static const QStringList changing{ "Look", "Measure", "Fit", "Moments" };
+  const bool changesPipeline = changing.contains(step);
   if (step == "By hand")
   {
     this->runByHand();
@@ -432,6 +439,7 @@ void CaseDock::showState()
     box->setToolTip(role["tip"].toString());
     box->show(role.toObject(), box == this->Boxes["opening"] && !sphere.isEmpty());
   }
+  this->NewMoment->setEnabled(told["bent"].toInt() != 0);
   this->Sphere->setVisible(!sphere.isEmpty());
   for (int i = 0; i < sphere.size(); ++i)
   {

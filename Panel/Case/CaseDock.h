@@ -12,6 +12,7 @@
 class QComboBox;
 class QJsonObject;
 class QLabel;
+class QPushButton;
 class QVBoxLayout;
 
 namespace brainshift
@@ -59,6 +60,7 @@ private:
 
   CaseOrders* Orders;
   QComboBox* Cases = nullptr;
+  QPushButton* NewMoment = nullptr;
   QMap<QString, RoleBox*> Boxes; ///< by role
   QWidget* Sphere = nullptr;
   QList<MillimetreField*> SphereFields; ///< centre and radius, mm

@@ -17,7 +17,8 @@ namespace brainshift
 {
 namespace
 {
-constexpr double MostGrowth = 100.0; // mm
+constexpr double MostGrowth = 100.0;   // mm
+constexpr double MostMinutes = 9999.0; // about a week
 
 QString nameOfField(const QString& setting)
 {
@@ -32,6 +33,7 @@ QString textOf(const QJsonValue& value)
     parts.append(QString::number(label.toInt()));
   }
   return value.isArray() ? parts.join(", ")
+    : value.isString()   ? value.toString()
     : value.isDouble()   ? QString::number(value.toDouble(), 'g', 10)
                          : QString();
 }
@@ -58,6 +60,8 @@ CaseSettings::CaseSettings()
   : Form(new QFormLayout(this))
 {
   this->Form->setContentsMargins(0, 0, 0, 0);
+  this->addName();
+  this->addMinutes();
   this->addLevel();
   this->addLabels("brain_labels", tr("Label of the brain"),
     tr("The label that counts as brain. Empty: all above 0."));
@@ -123,6 +127,35 @@ void CaseSettings::addLabels(const QString& name, const QString& label, const QS
     Q_EMIT this->edited(name, labels, label);
   });
   this->addField(name, label, tip, field);
+}
+
+void CaseSettings::addName()
+{
+  auto field = new QLineEdit;
+  field->setPlaceholderText(tr("for example after resection"));
+  const QString label = tr("Moment");
+  this->connect(field, &QLineEdit::editingFinished, this, [this, field, label] {
+    if (field->isModified())
+    {
+      field->setModified(false);
+      Q_EMIT this->edited("moment", field->text().trimmed(), label);
+    }
+  });
+  this->addField("moment", label, tr("What the moment of the surgery is called."), field);
+}
+
+void CaseSettings::addMinutes()
+{
+  auto field = new QDoubleSpinBox;
+  field->setRange(-MostMinutes, MostMinutes);
+  field->setDecimals(1);
+  field->setSuffix(tr(" min"));
+  field->setKeyboardTracking(false);
+  const QString label = tr("Time");
+  this->connect(field, &QDoubleSpinBox::valueChanged, this,
+    [this, label](double value) { Q_EMIT this->edited("minutes", value, label); });
+  this->addField("minutes", label,
+    tr("When the moment was (minutes, on ParaView's clock). Each moment has its own time."), field);
 }
 
 void CaseSettings::addLevel()

@@ -32,6 +32,8 @@ Q_SIGNALS:
 private:
   void addCheck(const QString& name, const QString& label, const QString& tip);
   void addLabels(const QString& name, const QString& label, const QString& tip);
+  void addName();
+  void addMinutes();
   void addLevel();
   void addGrowth();
   void addField(const QString& name, const QString& label, const QString& tip, QWidget* field);

@@ -75,10 +75,7 @@ ProposalDialog::ProposalDialog(QWidget* parent, const QJsonArray& proposal, cons
     box->addItem(tr("None"), QString());
     for (const QJsonValue role : roles)
     {
-      if (role["role"].toString() != "measured") // landmarks stand for both
-      {
-        box->addItem(role["label"].toString(), role["role"].toString());
-      }
+      box->addItem(role["label"].toString(), role["role"].toString());
     }
     box->setCurrentIndex(box->findData(proposal[row][0].toString()));
     this->connect(box, &QComboBox::currentIndexChanged, this, &ProposalDialog::judge);

@@ -57,6 +57,10 @@ Words wordsOf(const QString& step)
     { "Tumour left",
       { tr("Tumour Left"), tr("Measure how much tumour is left after the resection.") } },
     { "Report", { tr("Report..."), tr("Write a page with pictures and figures of the case.") } },
+    { "Moments",
+      { tr("Show Moments"),
+        tr("Show the moments of the surgery as time steps. Play shows the way from moment to "
+           "moment.") } },
   };
   return words[step];
 }
@@ -70,8 +74,8 @@ StepRows::StepRows()
   this->Grid->setVerticalSpacing(Gap);
   this->Grid->setColumnStretch(TextColumn, 1);
   // Now, so that the key Tab comes to them in this order.
-  for (const char* step :
-    { "Look", "Measure", "Fit", "By hand", "Refine", "Judge", "Export", "Tumour left", "Report" })
+  for (const char* step : { "Look", "Measure", "Fit", "By hand", "Refine", "Judge", "Export",
+         "Tumour left", "Report", "Moments" })
   {
     this->row(step);
   }

@@ -14,7 +14,7 @@ import sys
 import time
 from html import escape
 
-from .roles import ROLES, proposed
+from .roles import FILE_ROLES, proposed
 
 #: What `batch` can do with a case, in the order in which it does it.
 BATCH_STEPS = ("Fit", "Refine", "Judge", "Resect", "Export", "Report")
@@ -73,7 +73,7 @@ def write_manifest(folder, file):
             if found:
                 rows.append({"name": name, **found})
     with open(file, "w", newline="", encoding="utf-8") as opened:
-        writer = csv.DictWriter(opened, ("name", *ROLES), restval="", lineterminator="\n")
+        writer = csv.DictWriter(opened, ("name", *FILE_ROLES), restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
     return len(rows)
@@ -107,12 +107,13 @@ def read_manifest(file):
         if not name or name != os.path.basename(name) or name in (".", "..") or name in seen:
             raise ValueError(f"{file}: case {number} has the name {name!r}; each needs one of its "
                              "own, without slashes")
-        unknown = sorted(set(row) - {"name", *ROLES}, key=str)
+        unknown = sorted(set(row) - {"name", *FILE_ROLES}, key=str)
         if unknown:
-            raise ValueError(f"{file}: {unknown[0]!r} is no role; roles are {', '.join(ROLES)}")
+            raise ValueError(
+                f"{file}: {unknown[0]!r} is no role; roles are {', '.join(FILE_ROLES)}")
         seen.add(name)
         cases.append({"name": name, **{role: _absolute(row[role], folder)
-                                       for role in ROLES if row.get(role)}})
+                                       for role in FILE_ROLES if row.get(role)}})
     return cases
 
 
@@ -137,7 +138,7 @@ def _beside(path):
 
 def _files(case):
     """All files of a case, with those that a header names."""
-    for role in ROLES:
+    for role in FILE_ROLES:
         value = case.get(role)
         for path in [value] if isinstance(value, str) else value or []:
             if isinstance(path, str) and os.path.isdir(path):

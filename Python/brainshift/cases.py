@@ -7,31 +7,16 @@ import uuid
 
 from .arguments import positive, vector
 from .casesources import (
-    MARK, OPENED, SETTING, free_name, inputs_of, marks, opened, require_kind, settings_at, sources,
-    stem, values_of)
+    MARK, OPENED, SETTING, free_name, inputs_of, kept, marks, opened, require_kind, settings_at,
+    sources, stem, values_of)
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
-from .roles import ROLES, ending, holds_both, landmark_columns, proposed
+from .moments import Moments
+from .roles import FILE_ROLES, ROLES, ending, holds_both, landmark_columns, paired, proposed
 from .steps import Steps
 
 #: Parts of the pipeline that a case makes, beside the sources of its roles.
-_MADE = ("trace_distance", "contact_distance", "comparison", "joined", "bent")
-
-
-def _kept(function):
-    """Runs a method and makes the former source active again."""
-    import functools
-
-    @functools.wraps(function)
-    def run(*arguments, **named):
-        from paraview import simple
-
-        active = simple.GetActiveSource()
-        try:
-            return function(*arguments, **named)
-        finally:
-            simple.SetActiveSource(active)
-    return run
+_MADE = ("trace_distance", "contact_distance", "comparison", "joined", "at_rest", "bent")
 
 
 class _Role:
@@ -106,7 +91,7 @@ def _level(name, value):
     return None if value is None else float(value)
 
 
-class Case(Steps):
+class Case(Steps, Moments):
     """A patient: what is known, by roles, and the pipeline that it makes.
 
         case = brainshift.Case(volume="T1.nii.gz", brain="mask.nii.gz", traces="trace.csv")
@@ -125,7 +110,8 @@ class Case(Steps):
     - `opening`: a mask of the opening of the skull, or its centre and radius in mm
     - `landmarks`: a file with the positions at rest and measured (an MNI tag file of two volumes,
       or a table with two sets of columns), or a pair of files or sources: at rest, measured
-    - `electrodes`: contacts on the cortex. They are fitted as traced points are.
+    - `electrodes`: contacts on the cortex. The fit takes those of grids to the tissue under their
+      sheet (Electrode Grids), those of strips as traced points, and leaves others out.
     - `reference`: a volume during or after surgery
     - `cavity`: a mask of the removed tissue, drawn in the reference
 
@@ -139,6 +125,9 @@ class Case(Steps):
       most. Default: all above 0.
     - `landmarks_judge`: True keeps the landmarks out of the fit, so that they judge it. Default
       False.
+
+    A case is of one moment of a surgery: `moment` is its name and `minutes` its time.
+    `begin_moment` begins another one, and `moments` lists them.
 
     Attributes to read: `bent`, the Free-Form Deformation; `comparison`, a Compare Volumes;
     `trace_distance` and `contact_distance`, Trace Distances; each is `None` while its roles are
@@ -199,9 +188,13 @@ class Case(Steps):
 
     @classmethod
     def all(cls):
-        """All cases of the session, a list."""
-        names = {name: None for source in sources() for _, name in marks(source)}
-        return [cls._named(name) for name in names]
+        """All cases of the session, a list in the order in which they got a volume."""
+        numbers = {}
+        for source in sources():
+            for role, name in marks(source):  # the names of cases are in no order
+                number = role != "bent", source.SMProxy.GetGlobalID()
+                numbers[name] = min(numbers.get(name, number), number)
+        return [cls._named(name) for name in sorted(numbers, key=numbers.get)]
 
     @classmethod
     def from_folder(cls, folder):
@@ -224,14 +217,15 @@ class Case(Steps):
         """Take the proposal of `from_folder` over, with changes.
 
         - `changes`: roles and what they are instead of the proposal; `None` leaves a role out.
+          `measured` is the file of the measured landmarks, if `landmarks` has those at rest alone.
 
         Returns the case.
         """
-        unknown = sorted(set(changes) - set(ROLES))
+        unknown = sorted(set(changes) - set(FILE_ROLES))
         if unknown:
-            raise TypeError(f"Case has no role {unknown[0]!r}; it has {', '.join(ROLES)}")
-        roles = {each.role: each.file for each in self.proposal if each.role}
-        roles.update(changes)
+            raise TypeError(f"Case has no role {unknown[0]!r}; it has {', '.join(FILE_ROLES)}")
+        files = {each.role: each.file for each in self.proposal if each.role}
+        roles = paired({**files, **changes})
         for role in ROLES:
             if roles.get(role) is not None:
                 setattr(self, role, roles[role])
@@ -301,7 +295,7 @@ class Case(Steps):
         ball = self._setting("opening_ball")
         return (tuple(ball[0]), ball[1]) if ball else None
 
-    @_kept
+    @kept
     def _set_role(self, role, value):
         from paraview import simple
 
@@ -327,6 +321,10 @@ class Case(Steps):
         for source, name in self._unnamed:  # now former sources have given their names back
             simple.RenameSource(free_name(name), source)
         self._unnamed = []
+        for case in self.moments if role in ("brain", "tumour") else ():  # they are of the patient
+            if case != self:
+                case._take(role, self.part(role))
+                case._wire()
 
     def makes(self, source, role):
         """Whether a source is made of what the case makes of that role."""
@@ -407,18 +405,19 @@ class Case(Steps):
         self._set(source, inputs)
         return source
 
-    @_kept
+    @kept
     def _wire(self):
         """Makes the pipeline agree with roles and settings. Nothing that agrees is touched."""
         volume = self.volume
-        name = stem(volume) if volume else ""
         former = self.bent
         if volume is None:
             if former is not None:
                 self._settings = settings_at(former)
+            self._leave_moments()
             for part in ("fit", *_MADE):
                 self._made(part, "", "", Input=None)
-        bent = self._made("bent", "FreeFormDeformation", f"{name} bent", Input=volume)
+        bent = self._made("bent", "FreeFormDeformation", self._bent_name() if volume else "",
+                          Input=volume)
         if bent is not None:
             for key, value in self._settings.items() if former is None else ():
                 bent.SMProxy.SetAnnotation(SETTING + key, json.dumps(value))
@@ -432,6 +431,7 @@ class Case(Steps):
                                     Reference=self.reference)
             if comparison is not None:
                 self._set(comparison, {"Cavity": self.cavity, "CavityLabels": self.cavity_labels})
+            self._wire_moments()
         self._delete_loose()
 
     @staticmethod
@@ -445,6 +445,10 @@ class Case(Steps):
                     source.GetPropertyValue(name) == value)
             if not same:
                 setattr(source, name, value)
+
+    def _take_lattice_of(self, other):
+        """Gives the deformation the control points of another one."""
+        self._set(self.bent, {**_shared(other), "Inverse": other.Inverse})
 
     def _limit(self, bent):
         """What is drawn and what may move."""
@@ -473,9 +477,23 @@ class Case(Steps):
             if measure is not None:
                 self._set(measure, {**cortex, "Cavity": self.cavity})
 
-    def _on_cortex(self):
+    def _grids(self, ball):
+        """An Electrode Grids of the electrodes, or None."""
+        cortex = self.cortex()
+        surface = cortex.pop("Segmentation", None) or self.volume
+        grids = self._made("at_rest", "ElectrodeGrids", "contacts at rest",
+                           Input=self.electrodes if cortex else None, Cortex=surface)
+        if grids is not None:
+            self._set(grids, {**cortex, "Opening": self.part("opening"),
+                              "OpeningCentre": list(ball[0]), "OpeningRadius": float(ball[1])})
+        return grids
+
+    def _on_cortex(self, grids):
         """The source of all points that lie on the cortex."""
-        points = [source for source in (self.traces, self.electrodes) if source is not None]
+        from paraview import servermanager
+
+        contacts = servermanager.OutputPort(grids, 1) if grids is not None else None
+        points = [source for source in (self.traces, contacts) if source is not None]
         if len(points) < 2:
             self._made("joined", "", "", Input=None)
             return points[0] if points else None
@@ -487,7 +505,11 @@ class Case(Steps):
         if self.landmarks_judge or not (rest and measured):
             rest = measured = None
         ball = self.opening_ball() or ((0.0, 0.0, 0.0), 0.0)
-        return {"RestLandmarks": rest, "MeasuredLandmarks": measured, "Traces": self._on_cortex(),
+        grids = self._grids(ball)
+        if grids is not None and rest is None:
+            rest, measured = grids, self.electrodes
+        return {"RestLandmarks": rest, "MeasuredLandmarks": measured,
+                "Traces": self._on_cortex(grids),
                 "Opening": self.part("opening"), "OpeningCentre": list(ball[0]),
                 "OpeningRadius": float(ball[1]), "Cavity": self.cavity, **self.cortex()}
 
@@ -496,9 +518,14 @@ class Case(Steps):
         lattice = self.bent.Lattice if self.bent else None
         return lattice if is_kind(lattice, "FitDeformation") else None
 
+    def fits_landmarks(self):
+        """Whether the fit uses the landmarks, so that they do not judge it."""
+        fit, rest = self.fit_source(), self.part("landmarks")
+        return fit is not None and rest is not None and fit.RestLandmarks == rest
+
     # Actions ----------------------------------------------------------------------------------
 
-    @_kept
+    @kept
     def show(self, view=None, look=None):
         """Show the bent volume in a render view, with a look.
 
@@ -507,10 +534,17 @@ class Case(Steps):
         """
         from paraview import simple
 
+        view = view or simple.GetActiveViewOrCreate("RenderView")
+        self.hide_other_moments(view)
+        return self._shown(self.bent, view, look)
+
+    @staticmethod
+    def _shown(source, view, look):
+        from paraview import simple
+
         from .looks import look as set_look, looks
 
-        view = view or simple.GetActiveViewOrCreate("RenderView")
-        shown = simple.Show(self.bent, view, "UniformGridRepresentation")
+        shown = simple.Show(source, view, "UniformGridRepresentation")
         shown.SetRepresentationType("Deformed Volume")
         names = looks(shown)
         wanted = look or ("Brain" if "Brain" in names else names[0] if names else None)
@@ -519,7 +553,7 @@ class Case(Steps):
         shown.SetScalarBarVisibility(view, False)
         return shown
 
-    @_kept
+    @kept
     def fit(self):
         """Fit the deformation to traces, electrodes and landmarks, as `brainshift.fit` does.
 
@@ -545,7 +579,7 @@ class Case(Steps):
         forget_former(former)
         return Fit(source)
 
-    @_kept
+    @kept
     def refine(self, **settings):
         """Refine the deformation by the reference: see `brainshift.refine` for the settings."""
         from .registering import refine
@@ -560,7 +594,7 @@ class Case(Steps):
         import numpy
 
         fit = self.fit_source()
-        if fit is not None and fit.RestLandmarks:
+        if fit is not None and self.fits_landmarks():
             left_out = Fit(fit).leave_one_out
             known = left_out[numpy.isfinite(left_out)]
             self.judged = (f"leave-one-out error {known.mean():.2f} mm in the mean, "
@@ -573,7 +607,7 @@ class Case(Steps):
             self.judged = repr(errors).removeprefix("TargetErrors: ")
         return self.judged
 
-    @_kept
+    @kept
     def export(self, folder):
         """Write the bent volume, the displacement field and, after `resect`, the tumour's labels.
 
@@ -602,7 +636,7 @@ class Case(Steps):
         self.exported = files
         return files
 
-    @_kept
+    @kept
     def resect(self, **settings):
         """Find how much tumour is left: see `brainshift.resect` for the settings.
 
@@ -626,4 +660,6 @@ class Case(Steps):
                  for step in self.steps]
         if self.resection is not None:
             lines.append(f"  {self.resection}")
-        return "\n".join([f"Case with {roles}", *lines])
+        moment = f" of {self.moment or 'the moment'} at {self.minutes:g} min"
+        of = moment if len(self.moments) > 1 else ""
+        return "\n".join([f"Case{of} with {roles}", *lines])

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sources of the pipeline as a case sees them: their marks, names, kinds and inputs."""
 
+import functools
 import itertools
 import json
 import os
@@ -116,3 +117,17 @@ def values_of(source):
                      for i in range(own.GetNumberOfProxies())]
         found.append((name, str(value)))
     return found
+
+
+def kept(function):
+    """Runs a method and makes the former source active again."""
+    @functools.wraps(function)
+    def run(*arguments, **named):
+        from paraview import simple
+
+        active = simple.GetActiveSource()
+        try:
+            return function(*arguments, **named)
+        finally:
+            simple.SetActiveSource(active)
+    return run

@@ -12,7 +12,7 @@ import traceback
 from .cases import Case
 from .casesources import POINT_ROLES
 from .points import read_from
-from .roles import ROLES, holds_both, proposed
+from .roles import ROLES, holds_both, paired, proposed
 
 #: What a role is called in the window, and what it is.
 _ROLES = {
@@ -34,7 +34,7 @@ _ROLES = {
 }
 
 #: Filters whose images have no role.
-_RESULTS = ("FreeFormDeformation", "CompareVolumes", "FitDeformation", "RefinedLattice",
+_RESULTS = ("FreeFormDeformation", "CompareVolumes", "Moments", "FitDeformation", "RefinedLattice",
             "DeformationLattice", "TraceDistance")
 
 #: Colours of points in a view that tell themselves apart for all eyes (Okabe and Ito).
@@ -120,7 +120,8 @@ def _told_settings(case):
         "holds_outside": has_brain, "mask_growth": has_brain and case.holds_outside,
         "brain_labels": has_brain, "tumour_labels": case.tumour is not None,
         "cavity_labels": case.cavity is not None,
-        "landmarks_judge": all(case.landmarks or (None,))}
+        "landmarks_judge": all(case.landmarks or (None,)),
+        "moment": len(case.moments) > 1, "minutes": len(case.moments) > 1}
     return {name: {"value": getattr(case, name), "shown": bool(on)} for name, on in shown.items()}
 
 
@@ -131,7 +132,17 @@ def _told_steps(case):
     found = repr(case.resection).removeprefix("Resection: ") if case.resection else ""
     steps.append(_step("Tumour left", lacks, found))
     steps.append(_step("Report", case.lacks_bent(), case.reported))
+    steps.append(_step("Moments", *_found_moments(case)))
     return steps
+
+
+def _found_moments(case):
+    """What showing the moments lacks, and which there are."""
+    moments = case.moments
+    if case.lacks_bent() or len(moments) < 2:
+        return case.lacks_bent() or "another moment: press New Moment", ""
+    times = ", ".join(f"{each.moment or 'first'} {each.minutes:g} min" for each in moments)
+    return "", f"{len(moments)} moments: {times}; tissue between them is interpolated"
 
 
 def _step(name, lacks, found):
@@ -151,8 +162,9 @@ def _told(case):
 
 
 def _label(case):
-    """What a case is called: the name of its first source."""
-    return next((_name(case.part(role)) for role in ROLES if case.part(role)), "empty")
+    """What a case is called: the name of its first source, and its moment."""
+    name = next((_name(case.part(role)) for role in ROLES if case.part(role)), "empty")
+    return f"{name}, {case.moment or 'first moment'}" if len(case.moments) > 1 else name
 
 
 # Orders --------------------------------------------------------------------------------------
@@ -210,6 +222,7 @@ def _look_first(case):
     view = simple.GetActiveViewOrCreate("RenderView")
     if simple.GetRepresentation(case.bent, view).Visibility == 0:
         case.show(view)
+    case.hide_other_moments(view)
     simple.SetActiveSource(case.bent)
 
 
@@ -256,6 +269,8 @@ def _measure(case):
 def _run(case, step, **settings):
     if step == "Tumour left":
         case.resect()
+    elif step == "Moments":
+        case.show_moments()
     elif step == "Report":
         from .reporting import report
 
@@ -270,7 +285,7 @@ def _accept(case, roles):
     said at the end."""
     if roles.get("volume") and case.volume is not None:
         case = _begin(case)
-    problems = []
+    problems, roles = [], paired(roles)
     for role in ROLES:
         if roles.get(role):
             try:
@@ -284,7 +299,19 @@ def _accept(case, roles):
 
 
 def _select(case, name):
-    _in_hand["case"] = next((each for each in _cases() if each.name == name), case)
+    """Takes another case in hand. Another moment of the same surgery is then shown."""
+    chosen = next((each for each in _cases() if each.name == name), case)
+    _in_hand["case"] = chosen
+    if chosen != case and chosen in case.moments:
+        _look_first(chosen)
+
+
+def _begin_moment(case):
+    """Another moment of the same surgery, which is in hand from now on."""
+    moment = case.begin_moment(f"moment {len(case.moments) + 1}")
+    _in_hand["case"] = moment
+    _in_hand["known"][moment.name] = moment
+    _look_first(moment)
 
 
 def _begin(_):
@@ -301,7 +328,7 @@ def _sort(paths):
 
 
 _ORDERS = {"choose": _choose, "set": _set, "sphere": _set_sphere, "run": _run, "accept": _accept,
-           "select": _select, "begin": _begin}
+           "select": _select, "begin": _begin, "moment": _begin_moment}
 
 
 def answer(text):

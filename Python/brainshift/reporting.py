@@ -102,7 +102,7 @@ def _distances(case):
     errors = case.landmark_errors()
     if errors is not None:
         meaning = "Distance of landmarks from their measured positions."
-        if case.fit_source() is not None and case.fit_source().RestLandmarks:
+        if case.fits_landmarks():
             meaning += " The fit used them, so this is smaller than elsewhere."
         rows += [("Landmarks, in the mean", float(errors.before.mean()), errors.mean, "mm",
                   meaning),
@@ -130,7 +130,8 @@ def _fit_rows(case):
         return [], None
     fit = Fit(source)
     rows = []
-    for residuals, name in ((fit.landmark_residuals, "landmarks"), (fit.pull_residuals, "pulls"),
+    pairs = "landmarks" if case.fits_landmarks() else "contacts of grids"
+    for residuals, name in ((fit.landmark_residuals, pairs), (fit.pull_residuals, "pulls"),
                             (fit.trace_residuals, "points of the cortex")):
         known = residuals[numpy.isfinite(residuals)]
         if len(known):
@@ -140,7 +141,7 @@ def _fit_rows(case):
     left_out = fit.leave_one_out[numpy.isfinite(fit.leave_one_out)]
     if len(left_out):
         rows.append(("Leave-one-out error, mean", float(left_out.mean()), "mm",
-                     "Error at a landmark that the fit did not use, each in turn."))
+                     f"Error at {pairs} that the fit did not use, each in turn."))
     places = rest_from_deformed(case.bent, [list(scenes.focus_of(case))])
     deviation = float(fit.deviation(places)[0])
     rows += [("Deviation in the slices' middle", deviation, "mm",
@@ -330,7 +331,7 @@ def _tiles(case, fit, distances):
                       f"of {resection.before:.1f} ml" + (
                           f"; {100 * resection.level:.0f} % interval {ends[0]:.1f} to "
                           f"{ends[1]:.1f} ml" if ends else "; no interval")))
-    left_out = left_out_mean(fit)
+    left_out = left_out_mean(fit) if case.fits_landmarks() else None
     for name, before, after, unit, _ in distances:
         if name == "Landmarks, in the mean" and left_out is not None:
             found.append(("Landmarks left out, in the mean", f"{left_out:.2f} {unit}",

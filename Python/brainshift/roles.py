@@ -11,6 +11,9 @@ from .images import Labels, fetched
 ROLES = ("volume", "brain", "tumour", "traces", "opening", "landmarks", "electrodes", "reference",
          "cavity")
 
+#: Roles of files: landmarks may come as two files, at rest and measured.
+FILE_ROLES = (*ROLES, "measured")
+
 #: Endings of files with points, and of volumes.
 POINTS = (".mrk.json", ".fcsv", ".tag", ".csv", ".tsv")
 VOLUMES = (".nii", ".nii.gz", ".mha", ".mhd", ".nrrd", ".nhdr", ".mgz", ".mgh", ".mnc", ".mif",
@@ -129,11 +132,22 @@ def holds_both(path):
     return "it has two sets of positions" if is_pair else ""
 
 
+def paired(files):
+    """Files by role as a case takes them: landmarks at rest and measured are a pair."""
+    roles = {role: file for role, file in files.items() if role != "measured"}
+    if files.get("measured") is not None:
+        roles["landmarks"] = files.get("landmarks"), files["measured"]
+    return roles
+
+
 def _points_role(path):
     """The role of a file of points, and why; None if nothing says one."""
     if holds_both(path):
         return "landmarks", holds_both(path)
     role, reason = _by_words(path, _POINT_WORDS)
+    word = next((word for word in _words(path) if word.startswith(_MEASURED_WORDS)), None)
+    if role == "landmarks" and word:
+        return "measured", f"{reason} and the word {word}"
     if role or ending(path) not in (".csv", ".tsv"):
         return role, reason
     return ("traces", "it is a table of positions") if column_sets(path) else (None, "")

@@ -29,7 +29,7 @@ def figures_of_case(case):
     if measure is not None:
         found["traced points RMS (mm)"] = float(figures_of(measure).RMS)
     errors, fit = case.landmark_errors(), case.fit_source()
-    if fit is not None and fit.RestLandmarks:  # errors at these are no accuracy
+    if case.fits_landmarks():  # errors at these are no accuracy
         left_out = left_out_mean(Fit(fit))
         if left_out is not None:
             found["landmarks left out, mean (mm)"] = left_out
@@ -47,8 +47,10 @@ def run(job):
     """Does the steps of a job and returns its figures."""
     import brainshift
     from brainshift.batching import EXPORTED, PAGE
+    from brainshift.roles import paired
 
-    case = brainshift.Case(**{role: path for role, path in job["case"].items() if role != "name"})
+    case = brainshift.Case(**paired(
+        {role: path for role, path in job["case"].items() if role != "name"}))
     for step in job["steps"]:
         print(step, flush=True)
         lacking = {each.name: each.lacks for each in case.steps}

@@ -13,6 +13,7 @@
 #include "vtkFreeFormDeformation.h"
 #include "vtkLandmarkReader.h"
 #include "vtkLandmarkWriter.h"
+#include "vtkMoments.h"
 #include "vtkRefinedLattice.h"
 #include "vtkRegistrationRun.h"
 #include "vtkSurfaceReader.h"
@@ -134,6 +135,13 @@ TEST(Defaults, OfElectrodeGridsLiveInTheClass)
     { "Threshold", { filter->GetThreshold() } },
   };
   EXPECT_EQ(defaultsIn("Filters/Proxies/ElectrodeGrids.xml"), expected);
+}
+
+TEST(Defaults, OfMomentsLiveInTheClass)
+{
+  vtkNew<vtkMoments> filter;
+  const Defaults expected{ { "Interpolate", { double(filter->GetInterpolate()) } } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/Moments.xml"), expected);
 }
 
 TEST(Defaults, OfFitDeformationLiveInTheClass)

@@ -7,13 +7,16 @@ import shutil
 
 from unittest import mock
 
-from brainshift_testing import assert_says, ball, load_plugin, run_tests, scratch, volume
+import numpy
+from brainshift_testing import (assert_says, ball, load_plugin, messages, run_tests, scratch,
+                                volume)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from brainshift.points import read_from  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
-from patient_testing import TOP, cap, make_patient, table  # noqa: E402
+from patient_testing import (MIDDLE, RADIUS, TOP, cap, make_patient, sunk,  # noqa: E402
+                             table)
 
 FOLDER = scratch("patient")
 
@@ -134,6 +137,61 @@ def test_other_traces_are_fitted_at_once():
     assert len(fit.trace_residuals) == 112, len(fit.trace_residuals)
 
 
+def test_electrodes_are_fitted_by_their_sheet():
+    clear()
+    steps = 10.0 * numpy.mgrid[-1.5:2, -2:2.5].reshape(2, -1).T
+    angles = numpy.linalg.norm(steps, axis=1) / RADIUS
+    flat = steps / numpy.linalg.norm(steps, axis=1)[:, None]
+    rest = MIDDLE + RADIUS * numpy.column_stack(
+        (flat * numpy.sin(angles)[:, None], numpy.cos(angles)))
+    measured = sunk(rest)
+    measured[6] += (0.0, 0.0, 6.0)  # it floats
+    labels = [f"G{i + 1}" for i in range(len(rest))]
+    shaft = [[MIDDLE + x, MIDDLE, MIDDLE] for x in (55.0, 50.0, 45.0, 40.0)]
+    table(path("grid.csv"), "label x y z".split(), [
+        [name, *at] for name, at in zip(labels + ["D1", "D2", "D3", "D4"],
+                                        measured.tolist() + shaft)])
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),
+                           electrodes=path("grid.csv"))
+    case.run("Fit")
+    fit = case.bent.Lattice
+    assert fit.RestLandmarks == case.part("at_rest") and fit.MeasuredLandmarks == case.electrodes
+    used = brainshift.Fit(fit)
+    assert len(used.trace_residuals) == 19, "neither what floats nor the shaft"
+    left = numpy.delete(numpy.arange(20), 6)
+    back = brainshift.rest_from_deformed(case.bent, measured[left])
+    off = numpy.linalg.norm(back - rest[left], axis=1)
+    print(f"tissue under the contacts {off.mean():.2f} mm off")
+    assert off.mean() < 1.5, off
+    case.landmarks_judge = True
+    case.landmarks = path("targets.csv")
+    assert_says(case.run("Judge").found, "of 8 landmarks", "mm on average")
+    case.landmarks_judge = False
+    assert fit.RestLandmarks == case.landmarks[0], "landmarks of the user come first"
+    assert_says(case.run("Judge").found, "leave-one-out", "of 8 landmarks")
+    case.landmarks = case.electrodes = None
+    assert case.part("at_rest") is None and "contacts at rest" not in names()
+    os.remove(path("grid.csv"))
+
+
+def test_landmarks_in_two_files_are_a_pair():
+    clear()
+    folder = scratch("two")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    shutil.copy(path("sub-1_T1w.nii.gz"), folder)
+    for name, x in (("landmarks_preop", 1.0), ("landmarks_intraop", 2.0)):
+        table(os.path.join(folder, f"{name}.csv"), "label x y z".split(),
+              [[f"L{i}", x + 10 * i, 5.0 * i ** 2, 3.0] for i in range(4)])
+    case = brainshift.Case.from_folder(folder)
+    assert {os.path.basename(each.file): each.role for each in case.proposal} == {
+        "landmarks_preop.csv": "landmarks", "landmarks_intraop.csv": "measured",
+        "sub-1_T1w.nii.gz": "volume"}, case.proposal
+    case.accept()
+    rest, measured = (read_from(source).positions[:, 0].tolist() for source in case.landmarks)
+    assert (rest[0], measured[0]) == (1.0, 2.0)
+
+
 def test_a_state_keeps_the_case():
     clear()
     case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),
@@ -210,7 +268,10 @@ def test_columns_of_landmarks_are_taken_by_their_names():
             ("r a s x_meas y_meas z_meas", False), ("x_a y_a z_a x_b y_b z_b", False)):
         first, second = (measured, rest) if is_turned else (rest, measured)
         table(path("pairs.csv"), header.split(), [first[0] + second[0]])
-        case = brainshift.Case(landmarks=path("pairs.csv"))
+        with messages() as said:
+            case = brainshift.Case(landmarks=path("pairs.csv"))
+        is_unknown = header.split()[0] in ("x2", "x_a")  # words that say nothing known
+        assert ("it is not known" in said.text) == is_unknown, (header, said.text)
         places = [read_from(source).positions.tolist() for source in case.landmarks]
         assert places == [rest, measured], (header, places)
         simple.ResetSession()

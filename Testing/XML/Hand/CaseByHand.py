@@ -3,7 +3,8 @@
 dropped or opened as a file wires the pipeline in one step to undo, and undo and redo lead there and
 back; a folder's files are shown for correction before anything is opened; steps say what they lack
 and found; the fit is one press; a wrong file is refused with its reason; refining, judging,
-exporting and the report work by their buttons; and a state brings the dock back.
+exporting and the report work by their buttons; another moment of the surgery is begun, shown and
+undone; and a state brings the dock back.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
@@ -118,12 +119,13 @@ def settings_are_undone():
 
 
 def a_wrong_file_is_refused():
-    before = names()
+    before, steps = names(), window.undo_labels()
     assert hand.drop("BrainShiftCaseTumour", path("pointer.csv"))
     settled()
     problem = hand.label("BrainShiftCaseProblem")
     assert "volume" in problem and "pointer" in problem, problem
     assert names() == before and case().tumour is None and chosen("Tumour") == "\u2013"
+    assert window.undo_labels() == steps, "nothing happened"
     hand.close_messages()
 
 
@@ -163,6 +165,41 @@ def by_hand_takes_the_stamp():
     hand.shortcut("0", hand.ALT)
     settled()
     assert hand.is_visible(DOCK)
+
+
+def visible(source):
+    return simple.GetRepresentation(source, simple.GetActiveView()).Visibility
+
+
+def another_moment_is_begun_and_shown():
+    assert "New Moment" in text_of("Moments"), text_of("Moments")
+    first = case()
+    assert hand.click("BrainShiftCaseNewMoment")
+    settled()
+    first, later = first.moments
+    assert names()[-3:] == ["sub-1_T1w moments", "trace distance", "traced points"], names()
+    assert chosen("Brain") == "a mask" and chosen("Traces") == "\u2013"
+    assert hand.type_into("BrainShiftCase_moment", "2")
+    settled()
+    assert hand.type_into("BrainShiftCase_minutes", "45")
+    settled()
+    assert (later.moment, later.minutes) == ("2", 45.0), (later.moment, later.minutes)
+    assert hand.entries("BrainShiftCases")[1] == ["sub-1_T1w, first moment", "sub-1_T1w, 2"]
+    assert visible(later.bent) == 1 and visible(first.bent) == 0
+    assert hand.choose_by_keys("BrainShiftCases", "sub-1_T1w, first moment")
+    settled()
+    assert visible(later.bent) == 0 and visible(first.bent) == 1
+    assert chosen("Traces") == "traced points"
+    assert hand.click("BrainShiftCaseMoments")
+    settled()
+    assert visible(first.part("moments")) == 1 and visible(first.bent) == 0
+    assert "2 45 min" in text_of("Moments"), text_of("Moments")
+    undo("Moments")
+    assert visible(first.bent) == 1, "it is shown again"
+    undo("Set Time")
+    undo("Set Moment")
+    undo("New Moment")
+    assert case().moments == [case()] and case() == first, names()
 
 
 def a_folder_is_sorted_and_corrected():
@@ -234,5 +271,6 @@ def a_state_brings_the_dock_back():
 window.main("CaseByHand", [
     (set_up,), (steps_say_what_they_lack,), (roles_are_chosen_and_undone,), (settings_are_undone,),
     (a_wrong_file_is_refused,), (traces_are_opened_measured_and_fitted,),
-    (by_hand_takes_the_stamp,), (a_folder_is_sorted_and_corrected,), (a_reference_is_refined,),
-    (files_are_written,), (a_state_brings_the_dock_back,)])
+    (by_hand_takes_the_stamp,), (another_moment_is_begun_and_shown,),
+    (a_folder_is_sorted_and_corrected,), (a_reference_is_refined,), (files_are_written,),
+    (a_state_brings_the_dock_back,)])
