@@ -5,11 +5,13 @@
 #include "Filters/Attached/MaskImage.h"
 #include "Formats/Fields/FieldImage.h"
 
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -72,16 +74,34 @@ void vtkLatticeAlgorithm::RequireSettings() const
   if (!isLength(this->MaskGrowth) && this->MaskGrowth != ByFeather)
   {
     words << "Mask Growth is " << this->MaskGrowth << " mm; it must be 0 or more, and finite, or "
-          << ByFeather << " for the width of Feather";
+          << ByFeather << " for what Feather needs";
     throw Problem(words.str());
   }
+}
+
+namespace
+{
+constexpr double MostCellsMm = 10.0;
+
+// Mask Growth (mm) by the width of the feather, so that all tissue in the mask has the whole
+// displacement. Nodes of the refined field beside the edge are held, the field is trilinear between
+// nodes, and the mask grows by whole voxels: each can take the diagonal of a cell. Without these, a
+// brain under its mask sank by 87 % of what was measured at the cortex.
+double growthBy(double featherMm, const Grid& lattice, int samples, vtkImageData* mask)
+{
+  const double cell = glm::length(lattice.spacing) / (samples + 1.0);
+  const double voxel = mask ? glm::length(glm::make_vec3(mask->GetSpacing())) : 0.0;
+  return featherMm + std::min(2.0 * cell + voxel, MostCellsMm);
+}
 }
 
 Lattice vtkLatticeAlgorithm::MakeLattice(const Grid& volume, vtkImageData* mask)
 {
   this->RequireSettings();
   Lattice lattice = makeLattice(this->LatticeGrid(volume), this->Kernel);
-  const double growth = this->MaskGrowth == ByFeather ? this->Feather : this->MaskGrowth;
+  const double growth = this->MaskGrowth == ByFeather
+    ? growthBy(this->Feather, lattice.grid, this->Samples, mask)
+    : this->MaskGrowth;
   lattice.mask = this->Masks->find(
     { mask, this->MaskLabels, growth, this->Feather, volume, lattice.grid, this->Samples });
   return lattice;

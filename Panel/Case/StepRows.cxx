@@ -23,6 +23,30 @@ enum Column
   TextColumn
 };
 
+// Makes a label as high as its lines: a grid in a scroll area does not ask for that.
+void fitHeight(QLabel* label)
+{
+  label->setMinimumHeight(label->heightForWidth(label->width()));
+}
+
+class Lines : public QLabel
+{
+public:
+  Lines()
+  {
+    this->setWordWrap(true);
+    this->setTextFormat(Qt::PlainText);
+    this->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  }
+
+protected:
+  void resizeEvent(QResizeEvent* event) override
+  {
+    QLabel::resizeEvent(event);
+    fitHeight(this);
+  }
+};
+
 struct Words
 {
   QString label;
@@ -93,11 +117,8 @@ StepRows::Row& StepRows::row(const QString& step)
     this->connect(
       row.button, &QPushButton::clicked, this, [this, step] { Q_EMIT this->pressed(step); });
     row.sign = new QLabel;
-    row.text = new QLabel;
+    row.text = new Lines;
     row.text->setObjectName(row.button->objectName() + "Text");
-    row.text->setWordWrap(true);
-    row.text->setTextFormat(Qt::PlainText);
-    row.text->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     this->Grid->addWidget(row.button, at, ButtonColumn, Qt::AlignTop);
     this->Grid->addWidget(row.sign, at, SignColumn, Qt::AlignTop);
     this->Grid->addWidget(row.text, at, TextColumn);
@@ -121,6 +142,7 @@ void StepRows::show(const QJsonArray& told)
     row.text->setText(
       lacks.isEmpty() ? step["found"].toString() : StepRows::tr("Needs %1").arg(lacks));
     row.text->setEnabled(lacks.isEmpty());
+    fitHeight(row.text);
     row.button->setAccessibleDescription(row.text->text());
   }
 }
@@ -130,6 +152,7 @@ void StepRows::showInstead(const QString& step, const QString& text, const QStri
   Row& row = this->row(step);
   row.text->setText(text);
   row.text->setEnabled(true);
+  fitHeight(row.text);
   row.button->setAccessibleDescription(text);
   row.button->setText(button);
   row.button->setEnabled(true);

@@ -120,7 +120,7 @@ class Case(Steps, Moments):
     - `surface_level`: the scalar of the volume at the cortex, if there is no brain. Default `None`.
     - `holds_outside`: whether tissue outside of the brain is held. Default True.
     - `mask_growth`: distance in mm by which the brain grows before displacements fade. Default -1:
-      the width of the feather, so all of the brain may move.
+      as the feather needs, so that all of the brain moves by the whole displacement.
     - `brain_labels`, `tumour_labels`, `cavity_labels`: the labels that count; of the brain one at
       most. Default: all above 0.
     - `landmarks_judge`: True keeps the landmarks out of the fit, so that they judge it. Default

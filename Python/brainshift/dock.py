@@ -175,12 +175,13 @@ def _choose(case, role, source=0, path=""):
     chosen = path or _source(source)
     if source and chosen is None:
         raise ValueError(f"{_ROLES[role][0]}: the source is gone")
+    is_first_brain = role == "brain" and case.brain is None
     if role in ("landmarks", "measured"):
         _choose_landmarks(case, role, chosen)
     else:
         setattr(case, role, chosen)
-    if role == "volume" and case.bent is not None:
-        _look_first(case)
+    if case.bent is not None and (role == "volume" or is_first_brain):
+        _look_first(case, anew=is_first_brain)
 
 
 def _choose_landmarks(case, role, chosen):
@@ -215,12 +216,13 @@ def _guessed_sphere(case):
     return tuple(round((bounds[i] + bounds[i + 1]) / 2, 1) for i in (0, 2, 4)), _RADIUS
 
 
-def _look_first(case):
-    """Shows the bent volume where nothing shows it yet, and lets the tools act on it."""
+def _look_first(case, anew=False):
+    """Shows the bent volume where nothing shows it yet, and lets the tools act on it. `anew`: with
+    the look that fits now, also where it is shown."""
     from paraview import simple
 
     view = simple.GetActiveViewOrCreate("RenderView")
-    if simple.GetRepresentation(case.bent, view).Visibility == 0:
+    if anew or not _is_shown(case.bent, view):
         case.show(view)
     case.hide_other_moments(view)
     simple.SetActiveSource(case.bent)

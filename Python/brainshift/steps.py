@@ -112,7 +112,10 @@ class Steps:
         if fit is None:
             return "", ""
         figures_of(fit)
-        return "", reason_of(fit) or repr(Fit(fit)).removeprefix("Fit: ")
+        found = repr(Fit(fit)).removeprefix("Fit: ")
+        if not self.fits_landmarks():
+            found = found.replace(" landmarks with", " contacts of grids with")
+        return "", reason_of(fit) or found
 
     def _step_by_hand(self):
         if self.lacks_bent():

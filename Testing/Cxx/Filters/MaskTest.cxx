@@ -3,6 +3,7 @@
 // and that the filter bends what lies inside the mask alone.
 #include "Common/Problem.h"
 #include "Filters/Attached/MaskImage.h"
+#include "Filters/Deformation/ControlPoints.h"
 #include "Testing/Cxx/Deformation/TestHead.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
@@ -184,14 +185,49 @@ TEST_F(MaskedHead, AttachesItsWeights)
   EXPECT_FALSE(deformationOf(this->output()).lattice.mask);
 }
 
-TEST_F(MaskedHead, GrowsByTheFeatherUnlessTold)
+namespace
 {
+// The smallest weight of a mask in its own voxels.
+double leastWeightInside(const Lattice& lattice, const Mask& mask)
+{
+  const NodeWeights& nodes = *lattice.mask;
+  const glm::ivec3 sides = (lattice.grid.dimensions - 1) * nodes.perCell + 1;
+  double least = 1.0;
+  for (std::size_t i = 0; i < mask.inside.size(); ++i)
+  {
+    const glm::dvec3 world = mask.grid.worldFromGrid(glm::dvec3(indexOf(mask.grid, i)));
+    const glm::dvec3 at = lattice.grid.gridFromWorld(world) * double(nodes.perCell);
+    const glm::ivec3 low(glm::floor(at));
+    if (!mask.inside[i] || glm::any(glm::lessThan(low, glm::ivec3(0))) ||
+      glm::any(glm::greaterThanEqual(low + 1, sides)))
+    {
+      continue;
+    }
+    for (int corner = 0; corner < 8; ++corner) // trilinear: no smaller than all of them
+    {
+      const glm::ivec3 node = low + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+      const std::size_t offset =
+        node.x + static_cast<std::size_t>(sides.x) * (node.y + std::size_t(sides.y) * node.z);
+      least = std::min(least, double(nodes.values[offset]));
+    }
+  }
+  return least;
+}
+}
+
+TEST_F(MaskedHead, MovesAllOfTheMaskUnlessTold)
+{
+  const Mask brain = brainOn(obliqueMaskGrid());
+  this->Filter->SetFeather(3.0);
+  this->Filter->SetSamples(9);
+  const auto least = [&] {
+    return leastWeightInside(deformationOf(this->output()).lattice, brain);
+  };
+  EXPECT_LT(least(), 0.01);
+  this->Filter->SetMaskGrowth(3.0); // as wide as the feather: nodes beside the edge are held
+  EXPECT_LT(least(), 0.9);
   this->Filter->SetMaskGrowth(vtkNew<vtkFreeFormDeformation>()->GetMaskGrowth());
-  const Deformation usual = deformationOf(this->output());
-  this->Filter->SetMaskGrowth(4.0);
-  EXPECT_TRUE(sameMask(usual.lattice.mask, deformationOf(this->output()).lattice.mask));
-  this->Filter->SetMaskGrowth(0.0);
-  EXPECT_FALSE(sameMask(usual.lattice.mask, deformationOf(this->output()).lattice.mask));
+  EXPECT_GT(least(), 0.999);
 }
 
 TEST_F(MaskedHead, KeepsTheDeformationWhenTheMaskIsNone)
