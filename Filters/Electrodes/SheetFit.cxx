@@ -21,7 +21,8 @@ constexpr int AtRest = 2;              // of these
 constexpr int Rounds = 4;              // of weights
 constexpr double OutlierFactor = 3.4;  // 99 % of a normal distribution in space
 constexpr double DoubtedWeight = 0.5;  // of a contact that is farther off than OutlierFactor
-constexpr std::size_t MostDoubted = 4; // one contact in so many
+constexpr std::size_t MostDoubted = 4; // one contact of a sheet in so many
+constexpr std::size_t FewestLeft = 3;  // contacts of a sheet
 constexpr double OffMm = 1.5;          // less is no contact off the cortex
 constexpr double OffFactor = 3.0;      // times what is expected
 constexpr double LeastDamping = 1e-9;
@@ -175,28 +176,37 @@ private:
   std::size_t count() const { return this->Measured.size(); }
 
   // Gives doubted contacts no weight at all: a contact that floats leads the sheet aside along the
-  // cortex, where little leads it back. Returns whether there are any, and not too many.
+  // cortex, where little leads it back. A sheet most of whose contacts are doubted keeps them.
+  // Returns whether any lost its weight.
   bool leaveOutDoubted()
   {
-    std::vector<std::size_t> doubted;
-    std::size_t measured = 0;
-    for (std::size_t i = 0; i < this->count(); ++i)
+    bool isAny = false;
+    std::size_t first = 0;
+    for (const Sheet& sheet : this->Sheets)
     {
-      measured += this->Measured[i] ? 1 : 0;
-      if (this->Measured[i] && (this->Weights[i] < DoubtedWeight || this->Found[i].isOff()))
+      std::vector<std::size_t> doubted;
+      std::size_t measured = 0;
+      for (std::size_t i = first; i < first + sheet.contacts.size(); ++i)
       {
-        doubted.push_back(i);
+        const bool isDoubted = this->Weights[i] < DoubtedWeight || this->Found[i].isOff();
+        measured += this->Measured[i] ? 1 : 0;
+        if (this->Measured[i] && isDoubted)
+        {
+          doubted.push_back(i);
+        }
+      }
+      first += sheet.contacts.size();
+      if (MostDoubted * doubted.size() > measured || measured < FewestLeft + doubted.size())
+      {
+        continue;
+      }
+      for (const std::size_t i : doubted)
+      {
+        this->Weights[i] = 0.0;
+        isAny = true;
       }
     }
-    if (doubted.empty() || MostDoubted * doubted.size() > measured)
-    {
-      return false;
-    }
-    for (const std::size_t i : doubted)
-    {
-      this->Weights[i] = 0.0;
-    }
-    return true;
+    return isAny;
   }
 
   // Begins at the contacts that count, and at the nearest points of the cortex.

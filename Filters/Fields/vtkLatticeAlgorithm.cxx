@@ -81,7 +81,7 @@ void vtkLatticeAlgorithm::RequireSettings() const
 
 namespace
 {
-constexpr double MostCellsMm = 10.0;
+constexpr double MostCellsMm = 12.0; // enough for a head of 256 mm and the default lattice
 
 // Mask Growth (mm) by the width of the feather, so that all tissue in the mask has the whole
 // displacement. Nodes of the refined field beside the edge are held, the field is trilinear between

@@ -77,7 +77,7 @@ public:
   /**
    * Distance (mm) by which the mask grows before anything else is done with it; 0 or more, or
    * ByFeather (the default): as far as the feather is wide, and the diagonals of two cells of the
-   * refined field and of a voxel of the mask, 10 mm at most. Then the feather is outside the mask,
+   * refined field and of a voxel of the mask, 12 mm at most. Then the feather is outside the mask,
    * and all tissue in it moves by the whole displacement, such as the cortex under a mask of the
    * brain. The mask's image limits the growth.
    */

@@ -111,7 +111,7 @@ void CaseOrders::endEdits()
 
 void CaseOrders::give(const QString& order, const QJsonObject& arguments, const QString& label)
 {
-  if (order != "select" && order != "begin") // which only look elsewhere
+  if (order != "select" && order != "begin") // which edit no deformation
   {
     this->endEdits();
   }

@@ -70,6 +70,11 @@ QList<pqPipelineSource*> neighboursOf(pqPipelineSource* source)
   return inputsOf(source) + source->getAllConsumers();
 }
 
+bool isMoments(pqPipelineSource* source)
+{
+  return std::strcmp(source->getProxy()->GetXMLName(), "Moments") == 0;
+}
+
 bool isShown(pqPipelineSource* source, pqView* view)
 {
   pqDataRepresentation* display = view ? source->getRepresentation(view) : nullptr;
@@ -164,10 +169,14 @@ pqPipelineSource* activeDeformation(pqView* view)
 
 pqPipelineSource* deformationUpstream(pqPipelineSource* source)
 {
-  QList<pqPipelineSource*> visited = inputsOf(source);
+  QList<pqPipelineSource*> visited{ source };
   for (int next = 0; next < visited.size(); ++next)
   {
-    if (isDeformation(visited[next]))
+    if (isMoments(visited[next]))
+    {
+      continue; // it has several, and which one depends on the time
+    }
+    if (next > 0 && isDeformation(visited[next]))
     {
       return visited[next];
     }
@@ -216,8 +225,7 @@ pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view)
     for (pqPipelineSource* consumer : visited[next]->getAllConsumers())
     {
       // The output of another deformation is at other positions, and so is that of another moment.
-      const bool isElsewhere =
-        isDeformation(consumer) || std::strcmp(consumer->getProxy()->GetXMLName(), "Moments") == 0;
+      const bool isElsewhere = isDeformation(consumer) || isMoments(consumer);
       if (!isElsewhere && !visited.contains(consumer))
       {
         visited.append(consumer);

@@ -66,7 +66,7 @@ CaseSettings::CaseSettings()
   this->addLabels("brain_labels", tr("Label of the brain"),
     tr("The label that counts as brain. Empty: all above 0."));
   this->addCheck("holds_outside", tr("Hold tissue outside the brain"),
-    tr("Only the brain moves; skull and skin stay."));
+    tr("Only the brain moves. In the tissue around it displacements fade to nothing."));
   this->addGrowth();
   this->addLabels("tumour_labels", tr("Labels of the tumour"),
     tr("The labels that count as tumour, with commas between. Empty: all above 0."));
@@ -188,14 +188,14 @@ void CaseSettings::addGrowth()
   field->setRange(-1.0, MostGrowth);
   field->setDecimals(1);
   field->setSuffix(tr(" mm"));
-  field->setSpecialValueText(tr("as the feather"));
+  field->setSpecialValueText(tr("as needed"));
   field->setKeyboardTracking(false);
   const QString label = tr("Brain grows by");
   this->connect(field, &QDoubleSpinBox::valueChanged, this, [this, label](double value) {
     Q_EMIT this->edited("mask_growth", value < 0.0 ? -1.0 : value, label);
   });
   this->addField("mask_growth", label,
-    tr("Distance (mm) by which the brain grows before displacements fade. \"As the feather\" lets "
+    tr("Distance (mm) by which the brain grows before displacements fade. \"As needed\" lets "
        "all of the brain move."),
     field);
 }

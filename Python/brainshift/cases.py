@@ -11,12 +11,14 @@ from .casesources import (
     sources, stem, values_of)
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
-from .moments import Moments
+from .grids import shapes_of
+from .moments import SHARED, Moments
 from .roles import FILE_ROLES, ROLES, ending, holds_both, landmark_columns, paired, proposed
 from .steps import Steps
 
 #: Parts of the pipeline that a case makes, beside the sources of its roles.
-_MADE = ("trace_distance", "contact_distance", "comparison", "joined", "at_rest", "bent")
+_OF_FIT = ("joined", "at_rest")
+_MADE = ("trace_distance", "contact_distance", "comparison", *_OF_FIT, "bent")
 
 
 class _Role:
@@ -45,8 +47,10 @@ class _Setting:
         return self if case is None else case._setting(self.name, self.default)
 
     def __set__(self, case, value):
-        case._keep(self.name, self.check(self.name, value))
-        case._wire()
+        value = self.check(self.name, value)
+        for one in case.moments if self.name in SHARED else [case]:
+            one._keep(self.name, value)
+            one._wire()
 
 
 class _Result:
@@ -104,7 +108,7 @@ class Case(Steps, Moments):
 
     - `volume`: the volume before surgery
     - `brain`: a mask or labels of the brain. It is the segmentation, the cortex of fits and
-      distances, and the mask of the deformation: nothing outside moves (`holds_outside`).
+      distances, and the mask of the deformation: tissue away from it is held (`holds_outside`).
     - `tumour`: labels of the tumour in the frame of the volume
     - `traces`: points that were traced on the cortex
     - `opening`: a mask of the opening of the skull, or its centre and radius in mm
@@ -225,7 +229,7 @@ class Case(Steps, Moments):
         if unknown:
             raise TypeError(f"Case has no role {unknown[0]!r}; it has {', '.join(FILE_ROLES)}")
         files = {each.role: each.file for each in self.proposal if each.role}
-        roles = paired({**files, **changes})
+        roles = paired({**files, **changes}, self.part("landmarks"))
         for role in ROLES:
             if roles.get(role) is not None:
                 setattr(self, role, roles[role])
@@ -258,7 +262,8 @@ class Case(Steps, Moments):
 
     def _state(self):
         """What results depend on: roles, settings and the deformation as they are."""
-        parts = [self.part(role) for role in (*ROLES, "measured", "bent", "comparison")]
+        parts = [self.part(role) for role in (*ROLES, "measured", "bent", "comparison",
+                                             "at_rest")]
         bent = self.bent
         parts.append(bent.Lattice if bent else None)
         settings = [getattr(self, name) for name, kind in vars(Case).items()
@@ -328,11 +333,13 @@ class Case(Steps, Moments):
 
     def makes(self, source, role):
         """Whether a source is made of what the case makes of that role."""
-        if role in ("reference", "tumour"):  # the deformation does not depend on these
-            return False
-        made = [part for part in (self.bent, self.fit_source(), self.part("joined")) if part]
+        cases = self.moments if role == "brain" else [self]  # the brain is that of all moments
+        parts = {"tumour": (), "reference": ("comparison",)}.get(
+            role, ("bent", "joined", "at_rest", "moments"))
+        made = [case.part(part) for case in cases for part in parts]
+        made += [case.fit_source() for case in cases if parts[1:]]
         inputs = inputs_of(source)
-        return any(part.SMProxy.GetGlobalID() in inputs for part in made)
+        return any(part.SMProxy.GetGlobalID() in inputs for part in made if part)
 
     def _refuse_loop(self, role, source):
         if source is not None and self.makes(source, role):
@@ -378,11 +385,12 @@ class Case(Steps, Moments):
             source.SMProxy.SetAnnotation(self._key(role), "1")
 
     def _delete_loose(self):
-        """Deletes sources of former roles that nothing uses."""
+        """Deletes sources of former roles that nothing uses, and then those that these used."""
         from paraview import simple
 
-        for source in self._loose:
-            if is_unused(source):
+        while unused := [source for source in self._loose if is_unused(source)]:
+            self._loose = [source for source in self._loose if source not in unused]
+            for source in unused:
                 simple.Delete(source)
         self._loose = []
 
@@ -395,7 +403,10 @@ class Case(Steps, Moments):
 
         source = self.part(part)
         if any(value is None for value in inputs.values()):
-            if source is not None:
+            if source is not None and part in _OF_FIT:  # which uses it still
+                source.SMProxy.RemoveAnnotation(self._key(part))
+                self._loose.append(source)
+            elif source is not None:
                 simple.Delete(source)
             return None
         if source is None:
@@ -426,6 +437,8 @@ class Case(Steps, Moments):
             if fit is not None and fit.SMProxy.HasAnnotation(self._key("fit")):
                 self._set(fit, {"Input": volume, **_shared(bent), "Mask": bent.Mask,
                                 **self._measurements()})
+            elif any(self.part(part) for part in _OF_FIT):
+                self._measurements()
             self._distances(bent)
             comparison = self._made("comparison", "CompareVolumes", "comparison", Input=bent,
                                     Reference=self.reference)
@@ -481,8 +494,11 @@ class Case(Steps, Moments):
         """An Electrode Grids of the electrodes, or None."""
         cortex = self.cortex()
         surface = cortex.pop("Segmentation", None) or self.volume
+        is_new = self.part("at_rest") is None
         grids = self._made("at_rest", "ElectrodeGrids", "contacts at rest",
                            Input=self.electrodes if cortex else None, Cortex=surface)
+        if grids is not None and is_new:
+            self._set(grids, shapes_of(self.electrodes))
         if grids is not None:
             self._set(grids, {**cortex, "Opening": self.part("opening"),
                               "OpeningCentre": list(ball[0]), "OpeningRadius": float(ball[1])})
@@ -565,14 +581,20 @@ class Case(Steps, Moments):
 
         bent, former = self.bent, self.bent.Lattice
         base = former.Base if is_kind(former, "FitDeformation") else former
+        begun = [part for part in _OF_FIT if self.part(part) is None]
         values = {name: value for name, value in self._measurements().items() if value is not None}
         source = own(simple.FitDeformation(
             registrationName=free_name("fit"), Input=bent.Input, **_shared(bent), **values,
             **({"Base": base} if base else {})))
         source.UpdatePipeline()
-        problem = reason_of(source)
+        grids = self.part("at_rest")
+        problem = (grids is not None and reason_of(grids)) or reason_of(source)
         if problem:
             simple.Delete(source)
+            for part in begun:
+                self._made(part, "", "", Input=None)
+        self._delete_loose()
+        if problem:
             raise ValueError(problem)
         source.SMProxy.SetAnnotation(self._key("fit"), "1")
         bent.Lattice = source
@@ -591,12 +613,9 @@ class Case(Steps, Moments):
 
         Landmarks that the fit used are judged by leaving them out, others by their errors now.
         """
-        import numpy
-
         fit = self.fit_source()
         if fit is not None and self.fits_landmarks():
-            left_out = Fit(fit).leave_one_out
-            known = left_out[numpy.isfinite(left_out)]
+            known = Fit(fit).left_out_of_used
             self.judged = (f"leave-one-out error {known.mean():.2f} mm in the mean, "
                            f"{known.max():.2f} mm at most, of {len(known)} landmarks"
                            if len(known) else "no landmark is constrained by the others")
@@ -621,7 +640,7 @@ class Case(Steps, Moments):
         from .views import world_axes
 
         os.makedirs(folder, exist_ok=True)
-        name = os.path.join(folder, stem(self.volume))
+        name = os.path.join(folder, stem(self.volume) + self.moment_ending())
         baked = simple.BakeDeformation(Input=self.bent, Interpolation="Cubic")
         try:
             save_volume(baked, f"{name}_bent.nii.gz")

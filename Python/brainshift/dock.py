@@ -26,8 +26,9 @@ _ROLES = {
     "landmarks": ("Landmarks", "Landmarks at rest (mm). A file that has both positions of each "
                                "landmark counts for both rows."),
     "measured": ("Measured", "The same landmarks as measured during surgery (mm)."),
-    "electrodes": ("Electrodes", "Contacts that lie on the cortex (mm). They are fitted as traced "
-                                 "points are."),
+    "electrodes": ("Electrodes", "Contacts as measured (mm). The fit takes those of grids to the "
+                                 "tissue under their sheet, strips as traced points, and leaves "
+                                 "out shafts and what floats or is buried."),
     "reference": ("Reference", "A volume from during or after surgery. The bent volume is compared "
                                "with it, and refined by it."),
     "cavity": ("Cavity", "A mask of the removed tissue, drawn in the reference."),
@@ -45,7 +46,7 @@ _RADIUS, _LEAST_RADIUS = 30.0, 10.0
 
 #: The case; the connection that it is of; the last case that the user began, which is kept while it
 #: is empty; the cases by name, for they know what they found.
-_in_hand = {"case": None, "connection": None, "new": None, "known": {}}
+_in_hand = {"case": None, "former": None, "connection": None, "new": None, "known": {}}
 
 
 def _cases():
@@ -60,8 +61,8 @@ def _case():
     connection = servermanager.ActiveConnection
     case = _in_hand["case"] if _in_hand["connection"] is connection else None
     known = _cases()
-    if known and case not in (*known, _in_hand["new"]):
-        case = known[0]
+    if known and case not in (*known, _in_hand["new"]):  # as after an undo
+        case = _in_hand["former"] if _in_hand["former"] in known else known[0]
     case = case or Case()
     _in_hand["known"][case.name] = case
     _in_hand.update(case=case, connection=connection)
@@ -287,7 +288,7 @@ def _accept(case, roles):
     said at the end."""
     if roles.get("volume") and case.volume is not None:
         case = _begin(case)
-    problems, roles = [], paired(roles)
+    problems, roles = [], paired(roles, case.part("landmarks"))
     for role in ROLES:
         if roles.get(role):
             try:
@@ -311,7 +312,7 @@ def _select(case, name):
 def _begin_moment(case):
     """Another moment of the same surgery, which is in hand from now on."""
     moment = case.begin_moment(f"moment {len(case.moments) + 1}")
-    _in_hand["case"] = moment
+    _in_hand.update(case=moment, former=case)
     _in_hand["known"][moment.name] = moment
     _look_first(moment)
 

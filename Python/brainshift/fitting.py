@@ -121,7 +121,7 @@ class Fit:
             if len(counted):
                 rms = numpy.sqrt((counted ** 2).mean())
                 words.append(f"{len(counted)} {name} with residuals of {rms:.2f} mm (RMS)")
-        left_out = self.leave_one_out[numpy.isfinite(self.leave_one_out)]
+        left_out = self.left_out_of_used
         if len(left_out):
             words.append(f"leave-one-out error {left_out.mean():.2f} mm (mean)")
         cosine = (numpy.trace(self.rigid[:3, :3]) - 1.0) / 2.0
@@ -130,6 +130,14 @@ class Fit:
         words.append(f"share {self.share:.2f}")
         words.append(f"calibration {self.calibration:.2f}")
         return "Fit: " + ", ".join(words) + (f". {self.warning}" if self.warning else "")
+
+    @property
+    def left_out_of_used(self):
+        """The leave-one-out errors of the landmarks that the fit uses."""
+        import numpy
+
+        is_used = numpy.isfinite(self.landmark_residuals)
+        return self.leave_one_out[is_used & numpy.isfinite(self.leave_one_out)]
 
     def _report(self):
         """A report on the fit, in the process that has it."""

@@ -249,6 +249,20 @@ def _bids_shapes(name):
     return groups, [f"{group}={hint}" for group, hint in hints.items()]
 
 
+def shapes_of(source):
+    """The properties of an Electrode Grids that a source's BIDS table tells: groups and shapes."""
+    from paraview import servermanager
+
+    from .points import read_from
+
+    name = getattr(source, "FileName", None) or ""
+    if servermanager.ActiveConnection.IsRemote() or not os.path.isfile(str(name)):
+        return {}
+    groups, hints = _bids_shapes(str(name))
+    labels = read_from(source).labels if groups else []
+    return {"ContactGroups": [groups.get(label, "") for label in labels], "Shapes": hints}
+
+
 def _mesh(cortex):
     """A ParaView source of a surface that is given as points and triangles."""
     import numpy

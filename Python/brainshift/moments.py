@@ -9,6 +9,12 @@ from .casesources import free_name, kept, stem
 _KEPT = ("surface_level", "holds_outside", "mask_growth", "brain_labels", "tumour_labels",
          "landmarks_judge", "opening_ball")
 
+#: What a view shows of a case.
+_SHOWN = ("bent", "comparison", "traces", "electrodes", "trace_distance", "contact_distance")
+
+#: Settings that belong to roles of all moments.
+SHARED = ("holds_outside", "mask_growth", "brain_labels", "tumour_labels")
+
 #: Frames of an animation from one moment to the next.
 _FRAMES = 20
 
@@ -23,6 +29,8 @@ class Moments:
 
     @moment.setter
     def moment(self, name):
+        if str(name) == self.moment:
+            return
         self._keep("moment", str(name))
         if self.bent is not None:
             from paraview import simple
@@ -119,12 +127,21 @@ class Moments:
         return self._shown(group, view, look)
 
     def hide_other_moments(self, view):
-        """Hide the other moments in a render view."""
+        """Hide the other moments in a render view, with their points and comparisons."""
         from paraview import simple
 
-        others = [case.bent for case in self.moments if case != self]
-        for source in filter(None, [self.part("moments"), *others]):
-            simple.Hide(source, view)
+        own = [self.part(part) for part in _SHOWN]
+        others = [case.part(part) for case in self.moments if case != self for part in _SHOWN]
+        for source in [self.part("moments"), *others]:
+            if source is not None and source not in own:
+                simple.Hide(source, view)
+
+    def moment_ending(self):
+        """What tells the files of a moment from those of others; empty for the only one."""
+        if len(self.moments) < 2:
+            return ""
+        words = "".join(letter if letter.isalnum() else "-" for letter in self.moment)
+        return f"_{words or f'{self.minutes:g}min'}"
 
     def _bent_name(self):
         return f"{stem(self.volume)} bent" + (f", {self.moment}" if self.moment else "")

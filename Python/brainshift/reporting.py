@@ -113,11 +113,9 @@ def _distances(case):
 
 def left_out_mean(fit):
     """Mean leave-one-out error (mm) of the landmarks of a Fit; None without them or a Fit."""
-    import numpy
-
     if fit is None or not fit.filter.RestLandmarks:
         return None
-    known = fit.leave_one_out[numpy.isfinite(fit.leave_one_out)]
+    known = fit.left_out_of_used
     return float(known.mean()) if len(known) else None
 
 
@@ -138,7 +136,7 @@ def _fit_rows(case):
             rows.append((f"Residual of {len(known)} {name}, RMS",
                          float(numpy.sqrt((known ** 2).mean())), "mm",
                          "What the fit leaves at the points that it used."))
-    left_out = fit.leave_one_out[numpy.isfinite(fit.leave_one_out)]
+    left_out = fit.left_out_of_used
     if len(left_out):
         rows.append(("Leave-one-out error, mean", float(left_out.mean()), "mm",
                      f"Error at {pairs} that the fit did not use, each in turn."))
@@ -189,7 +187,9 @@ def _resection_rows(found):
 
 def _warnings(case, fit):
     found = [fit.warning] if fit is not None and fit.warning else []
-    bent = case.bent
+    bent, grids = case.bent, case.part("at_rest")
+    if grids is not None and grids.GetPropertyValue("Warning"):
+        found.append(grids.GetPropertyValue("Warning"))
     if case.comparison is not None:
         warning = figures_of(case.comparison).GetPropertyValue("Warning")
         found += [warning] if warning else []
@@ -212,12 +212,15 @@ def _settings(case):
                if ball else "around the measured points")
     cortex = ("the brain" if case.brain is not None else
               "none" if case.surface_level is None else f"scalars from {case.surface_level:g} on")
-    rows = [("Lattice", " x ".join(str(side) for side in bent.LatticeDimensions)
+    moment = (f"{case.moment or 'the first'}, at {case.minutes:g} min" if len(case.moments) > 1
+              else "the only one")
+    rows = [("Moment of the surgery", moment),
+            ("Lattice", " x ".join(str(side) for side in bent.LatticeDimensions)
              + " control points"),
             ("Kernel", str(bent.GetProperty("Kernel").GetData())), ("Samples", bent.Samples),
             ("Strength", f"{bent.Strength:g}"), ("Guard folding", bool(bent.GuardFolding)),
             ("Held outside of the brain", bent.Mask is not None),
-            ("Mask growth", "as the feather" if bent.MaskGrowth < 0 else
+            ("Mask growth", "as the feather needs" if bent.MaskGrowth < 0 else
              f"{bent.MaskGrowth:g} mm"),
             ("Feather", f"{bent.Feather:g} mm"), ("Cortex", cortex), ("Opening", opening),
             ("Landmarks judge only", bool(case.landmarks_judge))]

@@ -38,6 +38,10 @@ _VOLUME_WORDS = (
 _REST_WORDS = ("rest", "pre", "before", "fixed")
 _MEASURED_WORDS = ("meas", "post", "intra", "after", "moving")
 
+#: Words of names of files of measured landmarks.
+_MEASURED_FILES = ("measured post postop postoperative intraop intraoperative during after us ius "
+                   "moving")
+
 #: Files beside the data that have no role.
 _ASIDE = ("coordsystem", "dataset_description", "participants", "manifest", "channels", "events")
 
@@ -132,11 +136,22 @@ def holds_both(path):
     return "it has two sets of positions" if is_pair else ""
 
 
-def paired(files):
-    """Files by role as a case takes them: landmarks at rest and measured are a pair."""
+def paired(files, rest=None):
+    """Files by role as a case takes them: landmarks at rest and measured are a pair.
+
+    - `rest`: the landmarks at rest that the case has, for measured ones that come alone
+
+    Raises `ValueError` if the file of the landmarks has the measured ones, too.
+    """
     roles = {role: file for role, file in files.items() if role != "measured"}
-    if files.get("measured") is not None:
-        roles["landmarks"] = files.get("landmarks"), files["measured"]
+    measured, given = files.get("measured"), files.get("landmarks")
+    if measured is None or isinstance(given, (tuple, list)):
+        return roles
+    if isinstance(given, (str, os.PathLike)) and os.path.isfile(given) and holds_both(given):
+        raise ValueError(f"{os.path.basename(given)} has both positions of landmarks, and "
+                         f"{os.path.basename(measured)} is given as the measured ones: leave one "
+                         "of them out")
+    roles["landmarks"] = given if given is not None else rest, measured
     return roles
 
 
@@ -145,7 +160,7 @@ def _points_role(path):
     if holds_both(path):
         return "landmarks", holds_both(path)
     role, reason = _by_words(path, _POINT_WORDS)
-    word = next((word for word in _words(path) if word.startswith(_MEASURED_WORDS)), None)
+    word = next((word for word in _words(path) if word in _MEASURED_FILES.split()), None)
     if role == "landmarks" and word:
         return "measured", f"{reason} and the word {word}"
     if role or ending(path) not in (".csv", ".tsv"):

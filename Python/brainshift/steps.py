@@ -115,6 +115,9 @@ class Steps:
         found = repr(Fit(fit)).removeprefix("Fit: ")
         if not self.fits_landmarks():
             found = found.replace(" landmarks with", " contacts of grids with")
+            grids = self.part("at_rest")
+            doubts = grids.GetPropertyValue("Warning") if grids is not None else ""
+            found += f". {doubts}" if doubts else ""
         return "", reason_of(fit) or found
 
     def _step_by_hand(self):

@@ -54,13 +54,13 @@ def inside(mask, positions):
 
 
 def grown(brain, bent):
-    """The brain with the feather around it, which the mask grows by; somewhat more at its corners.
-    A list of bent's own voxels, as those of the brain."""
+    """The brain and what is around it that the mask grows by, at most: the feather and 12 mm;
+    somewhat more at its corners. A list of bent's own voxels, as those of the brain."""
     spacing = bent.GetClientSideObject().GetOutputDataObject(0).GetSpacing()
     for axis, mm in enumerate(reversed(spacing)):
         before = numpy.moveaxis(brain, axis, 0)
         wider = before.copy()
-        for voxel in range(1, int(bent.Feather / mm) + 3):
+        for voxel in range(1, int((bent.Feather + 12.0) / mm) + 3):
             wider[voxel:] |= before[:-voxel]
             wider[:-voxel] |= before[voxel:]
         brain = numpy.moveaxis(wider, 0, axis)

@@ -163,6 +163,13 @@ def test_electrodes_are_fitted_by_their_sheet():
     off = numpy.linalg.norm(back - rest[left], axis=1)
     print(f"tissue under the contacts {off.mean():.2f} mm off")
     assert off.mean() < 1.5, off
+    assert len(used.left_out_of_used) == 19, used.left_out_of_used
+    assert_says(case.steps[2].found, "19 contacts of grids", "G7", "above")
+    refused(ValueError, ["electrodes must not be made of"],
+            lambda: setattr(case, "electrodes", case.part("at_rest")))
+    case.judged = "a line"
+    case.part("at_rest").ContactDeviation = 0.7
+    assert case.judged is None, "another fit"
     case.landmarks_judge = True
     case.landmarks = path("targets.csv")
     assert_says(case.run("Judge").found, "of 8 landmarks", "mm on average")
@@ -190,6 +197,13 @@ def test_landmarks_in_two_files_are_a_pair():
     case.accept()
     rest, measured = (read_from(source).positions[:, 0].tolist() for source in case.landmarks)
     assert (rest[0], measured[0]) == (1.0, 2.0)
+    at_rest = case.landmarks[0]
+    case.proposal = []
+    case.accept(measured=os.path.join(folder, "landmarks_preop.csv"))
+    assert case.landmarks[0] == at_rest, "they are kept"
+    refused(ValueError, ["targets.csv", "both positions", "landmarks_intraop.csv"],
+            lambda: case.accept(landmarks=path("targets.csv"),
+                                measured=os.path.join(folder, "landmarks_intraop.csv")))
 
 
 def test_a_state_keeps_the_case():

@@ -113,6 +113,28 @@ def test_the_brain_is_that_of_all_moments():
     assert first.brain is None and first.bent.Segmentation is None
 
 
+def test_settings_of_shared_roles_are_those_of_all_moments():
+    first, second = begun()
+    first.brain_labels, second.tumour_labels = [1], [1]
+    assert second.brain_labels == [1] and first.tumour_labels == [1]
+    second.holds_outside = True
+    assert first.holds_outside is True and first.bent.Mask == first.brain
+    baked = simple.BakeDeformation(Input=second.bent)
+    refused(["brain must not be made of"], lambda: setattr(first, "brain", baked))
+    group = first.part("moments")
+    refused(["traces must be points"], lambda: setattr(first, "traces", group))
+    assert group.Input[0] == first.bent, "no loop"
+
+
+def test_files_of_moments_are_told_apart():
+    first, second = begun()
+    folder = scratch("moments_out")
+    for case in (first, second):
+        case.run("Export", folder=folder)
+    assert {"sub-1_T1w_0min_bent.nii.gz", "sub-1_T1w_after-resection_bent.nii.gz"} <= set(
+        os.listdir(folder)), os.listdir(folder)
+
+
 def test_a_moment_leaves_with_its_volume():
     first, second = begun()
     second.volume = path("sub-1_postop.nii.gz")
