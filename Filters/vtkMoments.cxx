@@ -212,6 +212,7 @@ int vtkMoments::RequestData(
   const int count = inputs[0]->GetNumberOfInformationObjects();
   const std::vector<double> times = this->TimesOf(count);
   std::vector<vtkImageData*> volumes;
+  volumes.reserve(count);
   for (int i = 0; i < count; ++i)
   {
     volumes.push_back(vtkImageData::GetData(inputs[0], i));
