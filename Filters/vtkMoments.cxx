@@ -84,11 +84,11 @@ std::string differenceOf(const Deformation& a, const Deformation& b)
 }
 
 // The deformation that is `share` on the way from one to the other. Where one is missing the volume
-// is not bent. `other` has the settings if both are.
+// is not bent. `carrier` has the settings if both are.
 Deformation between(const std::optional<Deformation>& earlier,
-  const std::optional<Deformation>& later, double share, const Deformation& other)
+  const std::optional<Deformation>& later, double share, vtkImageData* carrier)
 {
-  Deformation result = earlier ? *earlier : later ? *later : other;
+  Deformation result = earlier ? *earlier : later ? *later : readDeformation(carrier);
   const std::string difference =
     earlier && later && share > 0.0 ? differenceOf(*earlier, *later) : std::string();
   if (!difference.empty())
@@ -234,8 +234,9 @@ int vtkMoments::RequestData(
   std::string fold;
   if (carrier && (carrier != earlier || share > 0.0))
   {
-    const Deformation now = between(deformationOf(earlier), deformationOf(volumes[around.later]),
-      share, readDeformation(carrier));
+    const std::optional<Deformation> later =
+      share > 0.0 ? deformationOf(volumes[around.later]) : std::nullopt;
+    const Deformation now = between(deformationOf(earlier), later, share, carrier);
     attach(output, now);
     if (share > 0.0 && minimumJacobian(now.lattice) <= 0.0)
     {

@@ -34,8 +34,8 @@ public:
 
   ///@{
   /**
-   * The time of each input, in their order: finite numbers in any unit and any order, all
-   * different. Default: none, which means 0, 1, 2 and so on.
+   * The time (minutes) of each input, in their order: finite numbers in any order, all different.
+   * Default: none, which means 0, 1, 2 and so on.
    */
   void AddTime(double time);
   void ClearTimes();

@@ -116,13 +116,14 @@ def _told_settings(case):
     """The settings: `shown` is whether one matters with the present roles."""
     has_brain = case.brain is not None
     points = case.traces is not None or case.electrodes is not None
+    several = len(case.moments) > 1
     shown = {
         "surface_level": points and not has_brain,
         "holds_outside": has_brain, "mask_growth": has_brain and case.holds_outside,
         "brain_labels": has_brain, "tumour_labels": case.tumour is not None,
         "cavity_labels": case.cavity is not None,
         "landmarks_judge": all(case.landmarks or (None,)),
-        "moment": len(case.moments) > 1, "minutes": len(case.moments) > 1}
+        "moment": several, "minutes": several}
     return {name: {"value": getattr(case, name), "shown": bool(on)} for name, on in shown.items()}
 
 

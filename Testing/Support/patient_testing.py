@@ -8,7 +8,7 @@ import shutil
 
 import brainshift
 import numpy
-from brainshift_testing import ball, volume
+from brainshift_testing import assert_says, ball, volume
 from paraview import simple
 
 SIDE, SPACING = 41, 4.0  # voxels; mm
@@ -16,6 +16,16 @@ MIDDLE = (SIDE - 1) / 2 * SPACING
 RADIUS = 60.0  # mm
 SAG = 6.0  # mm
 TOP = (MIDDLE, MIDDLE, MIDDLE + RADIUS)
+
+
+def refused(words, function):
+    """Runs a function that must raise a ValueError which says the words."""
+    try:
+        function()
+    except ValueError as error:
+        assert_says(str(error), *words)
+    else:
+        raise AssertionError(f"nothing was refused that should say {words}")
 
 
 def table(file, header, rows):

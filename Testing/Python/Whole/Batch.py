@@ -11,19 +11,10 @@ from brainshift_testing import assert_says, load_plugin, run_tests, scratch
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from brainshift.batching import _key  # noqa: E402
-from patient_testing import make_patient  # noqa: E402
+from patient_testing import make_patient, refused  # noqa: E402
 
 FOLDER = scratch("cohort")
 STEPS = ("Fit", "Judge", "Resect", "Export")
-
-
-def refused(words, function):
-    try:
-        function()
-    except ValueError as error:
-        assert_says(str(error), *words)
-    else:
-        raise AssertionError(f"nothing was refused that should say {words}")
 
 
 def table():

@@ -9,7 +9,7 @@ from brainshift_testing import assert_says, field, load_plugin, run_tests, scrat
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import simple  # noqa: E402
-from patient_testing import TOP, cap, make_patient, table  # noqa: E402
+from patient_testing import TOP, cap, make_patient, refused, table  # noqa: E402
 
 FOLDER = scratch("moments")
 
@@ -38,15 +38,6 @@ def names():
 def bend(source, time=None):
     source.UpdatePipeline() if time is None else source.UpdatePipeline(time)
     return field(source, "FFDDisplacements") * float(field(source, "FFDStrength")[0])
-
-
-def refused(words, function):
-    try:
-        function()
-    except ValueError as error:
-        assert_says(str(error), *words)
-    else:
-        raise AssertionError(f"nothing was refused that should say {words}")
 
 
 def test_a_moment_shares_what_is_known_before_surgery():
