@@ -43,23 +43,9 @@ struct vtkCompareVolumes::Kept
   SharedArrays PointArrays;
   SharedArrays CellArrays;
 
-  vtkSmartPointer<vtkDataArray> Voxels;
-  vtkSmartPointer<vtkDataArray> Scalars; // that Voxels shows, as of ScalarsTime
-  vtkMTimeType ScalarsTime = 0;
-
+  RenamedArray Voxels; // of the reference
   CavitySource Cavity;
   std::string Warning;
-
-  vtkDataArray* voxelsOf(vtkDataArray* scalars)
-  {
-    if (this->Scalars != scalars || this->ScalarsTime != scalars->GetMTime())
-    {
-      this->Voxels = asReferenceVoxels(scalars);
-      this->Scalars = scalars;
-      this->ScalarsTime = scalars->GetMTime();
-    }
-    return this->Voxels;
-  }
 };
 
 vtkStandardNewMacro(vtkCompareVolumes);
@@ -125,15 +111,15 @@ int vtkCompareVolumes::RequestData(
   requirePosition(gridOf(output), "The volume's ");
   requirePosition(grid, "The reference's ");
   vtkDataArray* scalars = referenceScalars(image);
-  PlacedVoxels cavity = this->Internal->Cavity.find(
-    vtkImageData::GetData(inputs[CavityPort]), this->CavityLabels, grid, "reference");
+  PlacedVoxels cavity = this->Internal->Cavity.find(vtkImageData::GetData(inputs[CavityPort]),
+    this->CavityLabels, grid, { "cavity", "reference", "CavityLabels" });
   const double* r = this->ReferenceRotation;
   const double* t = this->ReferenceTranslation;
   const RigidMotion motion{ middleOf(grid), { r[0], r[1], r[2] }, { t[0], t[1], t[2] } };
   cavity.grid = movedRigidly(cavity.grid, motion);
   attachReference(output,
-    { { this->Internal->voxelsOf(scalars), movedRigidly(grid, motion) }, cavity,
-      static_cast<ReferenceShow>(this->Show) });
+    { { this->Internal->Voxels.as(ReferenceVoxelsName, scalars), movedRigidly(grid, motion) },
+      cavity, static_cast<ReferenceShow>(this->Show) });
   warnAnew(this,
     wordsOnSides({ "the volume", worldAxesOf(output) }, { "the reference", worldAxesOf(image) }),
     this->Internal->Warning);

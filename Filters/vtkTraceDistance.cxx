@@ -154,6 +154,18 @@ void vtkTraceDistance::SetCavityConnection(vtkAlgorithmOutput* mask)
   this->SetInputConnection(CavityPort, mask);
 }
 
+void vtkTraceDistance::AddCavityLabel(int label)
+{
+  this->CavityLabels.push_back(label);
+  this->Modified();
+}
+
+void vtkTraceDistance::ClearCavityLabels()
+{
+  this->CavityLabels.clear();
+  this->Modified();
+}
+
 int vtkTraceDistance::GetCount() const
 {
   return static_cast<int>(this->Internal->Statistics.count);
@@ -260,8 +272,8 @@ void vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
   const Lattice lattice = effectiveLattice(deformation);
   state.Map.emplace(lattice, deformation.inverse);
   state.Cavity = {};
-  state.Cavity =
-    state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]), {}, gridOf(volume), "volume");
+  state.Cavity = state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]),
+    this->CavityLabels, gridOf(volume), { "cavity", "volume", "CavityLabels" });
   state.ReferencesCavity = readReference(volume).cavity;
   std::function<bool(const glm::dvec3&)> isRemoved;
   if (state.Cavity.voxels || state.ReferencesCavity.voxels)

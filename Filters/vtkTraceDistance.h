@@ -8,7 +8,7 @@
  * - Input 2 (optional): a segmentation in the rest frame on any grid. The cortex is taken from it
  *   instead of the volume.
  * - Input 3 (optional): a cavity in the deformed frame, labels or scalars on any grid. Points and
- *   tissue do not count where it is above 0. They do not count either in the cavity that Compare
+ *   tissue do not count in it. They do not count either in the cavity that Compare
  *   Volumes attached to the volume.
  *
  * The cortex is the surface where the scalars pass Threshold, or where Label ends. It is found
@@ -84,6 +84,12 @@ public:
   ///@}
 
   ///@{
+  /** The labels of the cavity. Default: none, which means every value above 0. */
+  void AddCavityLabel(int label);
+  void ClearCavityLabels();
+  ///@}
+
+  ///@{
   /**
    * Figures of the last execution: how many points counted, and their distances in mm, which are
    * NaN if no point counted.
@@ -134,6 +140,7 @@ private:
   int SurfaceBy = ByThreshold;
   double Threshold = 0.5;
   int Label = 1;
+  std::vector<int> CavityLabels;
 
   // Finds the cortex. Returns one sentence if it cannot; empty if it can.
   void FindCortex(vtkInformationVector** inputs);

@@ -11,6 +11,7 @@
 #include "Representations/Scene/Remarks.h"
 #include "Representations/Scene/SceneFrame.h"
 #include "Representations/Slices/SliceDrawer.h"
+#include "Representations/Tissue/ResectionTextures.h"
 #include "Representations/Tissue/SceneReference.h"
 
 #include "vtkColorTransferFunction.h"
@@ -33,6 +34,7 @@ struct vtkDeformedSlicesMapper::Device
   ReferenceTextures Reference;
   DeviceDeformation Deformation;
   EvidenceTexture Evidence;
+  ResectionTextures Resected;
   SliceDrawer Drawer;
   GpuMemory Memory;
   DrawnSlices Drawn;
@@ -43,6 +45,7 @@ struct vtkDeformedSlicesMapper::Device
     this->Reference.releaseGraphicsResources(window);
     this->Deformation.releaseGraphicsResources(window);
     this->Evidence.releaseGraphicsResources(window);
+    this->Resected.releaseGraphicsResources(window);
     this->Drawer.releaseGraphicsResources();
   }
 };
@@ -185,6 +188,11 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
     return false;
   }
   scene.frame = frameOf(seen, tissue.values);
+  const VolumePlace place{ scene.frame.worldFromTexture, seen.volume->GetMatrix() };
+  if (!device.Resected.update(gpu, readResection(this->GetDataSetInput()), place, scene.resection))
+  {
+    return false;
+  }
   this->PlacePlanes(tissue.values, scene);
   scene.cubic =
     this->Interpolation == Cubic && !tissue.nearest && !CategoryScalars::areWanted(tissue.property);
@@ -353,9 +361,9 @@ const Counters& vtkDeformedSlicesMapper::GetCounters()
   count.gpuOtherBytes = 0;
   this->Internal->Devices.visit([&](Device& device) {
     count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
-    count.gpuOtherBytes +=
-      textureBytes({ device.Reference.textures(), device.Tissue.otherTextures(),
-        device.Deformation.field().textures(), { device.Evidence.texture() } });
+    count.gpuOtherBytes += textureBytes({ device.Reference.textures(),
+      device.Tissue.otherTextures(), device.Deformation.field().textures(),
+      { device.Evidence.texture() }, device.Resected.textures() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
   return count;

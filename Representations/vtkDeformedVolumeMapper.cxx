@@ -195,6 +195,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.reference.tissue.compared = request.tissue.compared;
   this->ComparePlainly(request);
   request.showsEvidence = this->DrawsEvidence(request.tissue.blend);
+  request.resection = readResection(image);
   request.memoryLimitMiB = this->MemoryLimit;
   request.wish.adaptive = this->AdaptiveQuality;
   request.wish.keep = this->KeepPicture || OverVolumes::areVisibleIn(renderer);

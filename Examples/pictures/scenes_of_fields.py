@@ -266,6 +266,44 @@ def moments(width):
     return stage.side_by_side(views)
 
 
+# Focus, eye and angle of a view into the cavity, from the left, front and above.
+CAVITY_VIEW = (-322, 28, 492), (-540, 250, 730), 11
+
+
+def _inwards(places):
+    """How deep places (mm) lie on the way from the cortex to the middle of the brain, and how far
+    from it, mm."""
+    inwards = numpy.subtract(stage.CENTRE, stage.CORTEX)
+    inwards /= numpy.linalg.norm(inwards)
+    deep = (places - stage.CORTEX) @ inwards
+    return deep, numpy.linalg.norm(places - stage.CORTEX - deep[:, None] * inwards, axis=1)
+
+
+def _tumour(places):
+    deep, aside = _inwards(places)
+    return (deep - 13.0) ** 2 + aside ** 2 < 14.0 ** 2
+
+
+def _cavity(places):
+    """Open to the outside; on one side of the tumour it does not reach far enough."""
+    deep, aside = _inwards(places + (3.5, 0.0, 2.0))
+    return (numpy.maximum(deep - 22.0, 0.0) ** 2 + aside ** 2 < 13.0 ** 2)
+
+
+def resection(width):
+    """A brain that sank after a tumour was removed: in 3D, and a slice of it."""
+    side = width // 2
+    resected = simple.Resection(
+        Input=stage.bend(stage.brain(), stage.push()),
+        Tumour=stage.labels_of("Tumour", _tumour), Cavity=stage.labels_of("Cavity", _cavity))
+    views = [stage.brain_view(resected, side),
+             stage.flat_view(side, numpy.add(stage.CORTEX, (22.0, 0.0, -30.0)), 58.0)]
+    stage.demo.frame(views[0], *CAVITY_VIEW)
+    stage.show_slices(resected, views[1], array="Brain",
+                      position=numpy.subtract(stage.CORTEX, (0.0, 4.0, 0.0)))
+    return stage.side_by_side(views)
+
+
 def deform_geometry(width):
     """A mesh of the brain as loaded, and moved along, coloured by how far, before a slice."""
     side = width // 2
@@ -290,4 +328,5 @@ FIELD_SCENES = {
     "filter-surfaces-and-tracts": surfaces,
     "filter-electrode-grids": electrode_grids,
     "filter-moments": moments,
+    "filter-resection": resection,
     "filter-deform-geometry": deform_geometry}

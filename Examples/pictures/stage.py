@@ -53,6 +53,26 @@ def brain():
     return once("brain", lambda: demo.brain_alone(head(), mask()))
 
 
+def labels_of(name, inside):
+    """A source of labels on the grid of the mask: 1 where inside(positions) is true, an array for
+    N x 3 positions (mm)."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    grid = simple.FetchData(mask())[0]
+    side = grid.GetDimensions()
+    z, y, x = numpy.indices(side[::-1]).reshape(3, -1)
+    matrix = grid.GetIndexToPhysicalMatrix()
+    world = numpy.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(3)])
+    positions = numpy.stack((x, y, z), axis=1) @ world[:, :3].T + world[:, 3]
+    made = grid.NewInstance()
+    made.CopyStructure(grid)
+    array = numpy_to_vtk(inside(positions).astype(numpy.uint8), deep=True)
+    array.SetName(name)
+    made.GetPointData().SetScalars(array)
+    source = simple.TrivialProducer(registrationName=name)
+    source.GetClientSideObject().SetOutput(made)
+    return source
+
+
 def clear():
     """Deletes everything but the volumes that scenes share."""
     for view in simple.GetViews():

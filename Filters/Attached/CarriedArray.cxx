@@ -131,6 +131,21 @@ vtkSmartPointer<vtkDataArray> sharedAs(const char* name, vtkDataArray* source)
   return shared;
 }
 
+vtkDataArray* RenamedArray::as(const char* name, vtkDataArray* source)
+{
+  if (!source)
+  {
+    return nullptr;
+  }
+  if (this->Source != source || this->Time != source->GetMTime())
+  {
+    this->Shared = sharedAs(name, source);
+    this->Source = source;
+    this->Time = source->GetMTime();
+  }
+  return this->Shared;
+}
+
 SharedArrays::SharedArrays() = default;
 SharedArrays::~SharedArrays() = default;
 

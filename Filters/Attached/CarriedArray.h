@@ -25,6 +25,19 @@ namespace brainshift
 /** An array over the same numbers with another name, for data that travels beside a volume. */
 vtkSmartPointer<vtkDataArray> sharedAs(const char* name, vtkDataArray* source);
 
+/** Shares one array under another name: the same object as long as the source stays as it is. */
+class RenamedArray
+{
+public:
+  /** `source` under the name; null for null. */
+  vtkDataArray* as(const char* name, vtkDataArray* source);
+
+private:
+  vtkSmartPointer<vtkDataArray> Source; // of Shared, as of Time
+  unsigned long long Time = 0;
+  vtkSmartPointer<vtkDataArray> Shared;
+};
+
 /** Shares all arrays of a data set, time after time. */
 class SharedArrays
 {

@@ -191,8 +191,8 @@ std::shared_ptr<const NodeWeights> MaskSource::find(const MaskRequest& request)
   return this->Weights;
 }
 
-PlacedVoxels CavitySource::find(vtkImageData* image, const std::vector<int>& labels,
-  const Grid& volume, const std::string& volumeName)
+PlacedVoxels CavitySource::find(
+  vtkImageData* image, const std::vector<int>& labels, const Grid& volume, const MaskNames& names)
 {
   if (!image || image->GetNumberOfPoints() == 0)
   {
@@ -202,7 +202,7 @@ PlacedVoxels CavitySource::find(vtkImageData* image, const std::vector<int>& lab
     this->Labels != labels)
   {
     this->Voxels = nullptr;
-    const Mask mask = readMask(image, labels, volume, { "cavity", volumeName, "CavityLabels" });
+    const Mask mask = readMask(image, labels, volume, names);
     this->Voxels = asCavityVoxels(mask);
     this->VoxelsGrid = mask.grid;
     this->Image = image;

@@ -81,23 +81,23 @@ private:
 };
 
 /**
- * Reads a cavity from an image. It keeps the voxels of the last image and hands out the same array
- * object as long as nothing of the image changes.
+ * Reads a cavity, or a tumour, from an image. It keeps the voxels of the last image and hands out
+ * the same array object as long as nothing of the image changes.
  */
 class VTKBRAINSHIFTFILTERS_EXPORT CavitySource
 {
 public:
   /**
-   * Finds the cavity. Throws a Problem if the image is no mask.
+   * Finds its voxels. Throws a Problem if the image is no mask.
    *
    * @param image        null or empty: no cavity
    * @param labels       labels of the cavity; none: all above 0
    * @param volume       the volume that the cavity must overlap
-   * @param volumeName   what messages call that volume
+   * @param names        what messages call the image, that volume and the property of the labels
    * @return the voxels (1 or 0); no voxels without an image
    */
   PlacedVoxels find(vtkImageData* image, const std::vector<int>& labels, const Grid& volume,
-    const std::string& volumeName);
+    const MaskNames& names);
 
 private:
   vtkSmartPointer<vtkDataArray> Voxels; // null: the last image was no mask

@@ -18,11 +18,23 @@ namespace brainshift
 {
 namespace
 {
-constexpr const char* VoxelsName = "ReferenceVoxels";
 constexpr const char* GridName = "ReferenceGrid";
 constexpr const char* ShowName = "ReferenceShow";
 constexpr const char* CavityName = "CavityVoxels";
 constexpr const char* CavityGridName = "CavityGrid";
+
+glm::dmat3 turnOf(const glm::dvec3& degrees)
+{
+  glm::dmat4 turn(1.0);
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    glm::dvec3 about(0.0);
+    about[axis] = 1.0;
+    turn = glm::rotate(turn, glm::radians(degrees[axis]), about);
+  }
+  return glm::dmat3(turn);
+}
+}
 
 void attachPlaced(vtkFieldData* fields, const PlacedVoxels& placed, const char* gridName)
 {
@@ -41,24 +53,6 @@ PlacedVoxels readPlaced(vtkFieldData* fields, const char* name, const char* grid
   const bool fits = voxels->GetNumberOfTuples() == static_cast<vtkIdType>(placed.grid.count());
   placed.voxels = fits ? voxels : nullptr;
   return placed;
-}
-
-glm::dmat3 turnOf(const glm::dvec3& degrees)
-{
-  glm::dmat4 turn(1.0);
-  for (int axis = 2; axis >= 0; --axis)
-  {
-    glm::dvec3 about(0.0);
-    about[axis] = 1.0;
-    turn = glm::rotate(turn, glm::radians(degrees[axis]), about);
-  }
-  return glm::dmat3(turn);
-}
-}
-
-vtkSmartPointer<vtkDataArray> asReferenceVoxels(vtkDataArray* scalars)
-{
-  return sharedAs(VoxelsName, scalars);
 }
 
 vtkSmartPointer<vtkDataArray> asCavityVoxels(const Mask& mask)
@@ -91,7 +85,7 @@ void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
 ReferenceVolume readReference(vtkDataObject* volume)
 {
   vtkFieldData* fields = volume->GetFieldData();
-  ReferenceVolume reference{ readPlaced(fields, VoxelsName, GridName), {} };
+  ReferenceVolume reference{ readPlaced(fields, ReferenceVoxelsName, GridName), {} };
   if (reference.voxels)
   {
     reference.cavity = readPlaced(fields, CavityName, CavityGridName);
@@ -102,6 +96,14 @@ ReferenceVolume readReference(vtkDataObject* volume)
                                   : ReferenceShow::Both;
   }
   return reference;
+}
+
+void removeReference(vtkDataObject* volume)
+{
+  for (const char* name : { ReferenceVoxelsName, GridName, ShowName, CavityName, CavityGridName })
+  {
+    volume->GetFieldData()->RemoveArray(name);
+  }
 }
 
 glm::dvec3 middleOf(const Grid& grid)

@@ -24,6 +24,7 @@
 #include "vtkSmartPointer.h"
 
 class vtkDataObject;
+class vtkFieldData;
 
 namespace brainshift
 {
@@ -42,6 +43,12 @@ struct PlacedVoxels
   Grid grid;
 };
 
+/** Attaches voxels, which have the name that they are found by, and their grid under a name. */
+void attachPlaced(vtkFieldData* fields, const PlacedVoxels& placed, const char* gridName);
+
+/** Reads what attachPlaced wrote. Voxels that are missing or do not fit their grid are null. */
+PlacedVoxels readPlaced(vtkFieldData* fields, const char* name, const char* gridName);
+
 /** What the arrays hold. */
 struct ReferenceVolume : PlacedVoxels
 {
@@ -49,13 +56,16 @@ struct ReferenceVolume : PlacedVoxels
   ReferenceShow show = ReferenceShow::Both;
 };
 
-/** An array over the same numbers, under the name that attachReference needs. */
-VTKBRAINSHIFTFILTERS_EXPORT vtkSmartPointer<vtkDataArray> asReferenceVoxels(vtkDataArray* scalars);
+/** Name of the reference's voxels as attachReference needs them. */
+constexpr const char* ReferenceVoxelsName = "ReferenceVoxels";
 
 /** The voxels of a mask as an array, under the name that attachReference needs. */
 VTKBRAINSHIFTFILTERS_EXPORT vtkSmartPointer<vtkDataArray> asCavityVoxels(const Mask& mask);
 
-/** Attaches a reference whose voxels asReferenceVoxels and asCavityVoxels made. */
+/**
+ * Attaches a reference whose voxels have the name ReferenceVoxelsName, with a cavity that
+ * asCavityVoxels made.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT void attachReference(
   vtkDataObject* volume, const ReferenceVolume& reference);
 
@@ -64,6 +74,9 @@ VTKBRAINSHIFTFILTERS_EXPORT void attachReference(
  * Without a reference there is no cavity.
  */
 VTKBRAINSHIFTFILTERS_EXPORT ReferenceVolume readReference(vtkDataObject* volume);
+
+/** Removes what attachReference wrote. */
+void removeReference(vtkDataObject* volume);
 
 /** How a reference is moved: first turned about `middle`, then shifted. */
 struct RigidMotion

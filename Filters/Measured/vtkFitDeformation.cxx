@@ -346,8 +346,9 @@ void vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
       state.Measured.pins.push_back(pin.rest);
     }
   }
-  const PlacedVoxels cavity = state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]), {},
-    gridOf(vtkImageData::GetData(inputs[0])), "volume");
+  const PlacedVoxels cavity =
+    state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]), this->CavityLabels,
+      gridOf(vtkImageData::GetData(inputs[0])), { "cavity", "volume", "CavityLabels" });
   const std::vector<glm::dvec3> traces = positionsOf(points(TracesPort));
   state.TraceResiduals.assign(traces.size(), NaN);
   state.TraceNumbers.clear();
@@ -481,6 +482,18 @@ int vtkFitDeformation::RequestData(
   output->Crop(
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   return 1;
+}
+
+void vtkFitDeformation::AddCavityLabel(int label)
+{
+  this->CavityLabels.push_back(label);
+  this->Modified();
+}
+
+void vtkFitDeformation::ClearCavityLabels()
+{
+  this->CavityLabels.clear();
+  this->Modified();
 }
 
 double vtkFitDeformation::GetShare() const

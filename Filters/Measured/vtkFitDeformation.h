@@ -129,6 +129,12 @@ public:
   ///@}
 
   ///@{
+  /** The labels of the cavity. Default: none, which means every value above 0. */
+  void AddCavityLabel(int label);
+  void ClearCavityLabels();
+  ///@}
+
+  ///@{
   /**
    * Whether the output carries the point array Deviation (float32, mm): the standard deviation of
    * the displacement at each control point, as Deviations() returns it. It takes time. Default off.
@@ -293,6 +299,7 @@ private:
   bool Evidence = false;
   std::vector<double> Pulls;
   std::vector<double> Pins;
+  std::vector<int> CavityLabels;
   const std::unique_ptr<brainshift::FitLandmarks> Landmarks;
 
   // Each throws a Problem if it cannot.

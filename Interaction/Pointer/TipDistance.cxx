@@ -28,7 +28,7 @@ namespace brainshift
 namespace
 {
 constexpr const char* Cortex[] = { "SurfaceArray", "SurfaceBy", "Threshold", "Label",
-  "Segmentation", "Cavity" };
+  "Segmentation", "Cavity", "CavityLabels" };
 constexpr int ByThreshold = 0;
 
 bool isA(vtkSMProxy* proxy, const char* name)

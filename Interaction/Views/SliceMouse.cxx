@@ -44,12 +44,13 @@ void followInOtherViews(vtkSMProxy* display);
 namespace
 {
 // The volume that a source passes on without new voxels: that of the file, for a filter that
-// deforms it, compares it, or has its moments.
+// deforms it, compares it, or has its moments or its resection.
 vtkSMProxy* volumeOf(vtkSMProxy* source)
 {
   const auto passesOn = [](vtkSMProxy* filter) {
     const std::string_view name = filter->GetXMLName();
-    return name == "FreeFormDeformation" || name == "CompareVolumes" || name == "Moments";
+    return name == "FreeFormDeformation" || name == "CompareVolumes" || name == "Moments" ||
+      name == "Resection";
   };
   while (source && passesOn(source))
   {

@@ -13,12 +13,13 @@ from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
 from .grids import shapes_of
 from .moments import SHARED, Moments
+from .resecting import Resections
 from .roles import FILE_ROLES, ROLES, ending, holds_both, landmark_columns, paired, proposed
 from .steps import Steps
 
 #: Parts of the pipeline that a case makes, beside the sources of its roles.
 _OF_FIT = ("joined", "at_rest")
-_MADE = ("trace_distance", "contact_distance", "comparison", *_OF_FIT, "bent")
+_MADE = ("resected", "trace_distance", "contact_distance", "comparison", *_OF_FIT, "bent")
 
 
 class _Role:
@@ -95,7 +96,7 @@ def _level(name, value):
     return None if value is None else float(value)
 
 
-class Case(Steps, Moments):
+class Case(Steps, Moments, Resections):
     """A patient: what is known, by roles, and the pipeline that it makes.
 
         case = brainshift.Case(volume="T1.nii.gz", brain="mask.nii.gz", traces="trace.csv")
@@ -440,10 +441,12 @@ class Case(Steps, Moments):
             elif any(self.part(part) for part in _OF_FIT):
                 self._measurements()
             self._distances(bent)
+            self._wire_resection()  # before a comparison goes
             comparison = self._made("comparison", "CompareVolumes", "comparison", Input=bent,
                                     Reference=self.reference)
             if comparison is not None:
                 self._set(comparison, {"Cavity": self.cavity, "CavityLabels": self.cavity_labels})
+            self._wire_resection()
             self._wire_moments()
         self._delete_loose()
 
@@ -488,7 +491,8 @@ class Case(Steps, Moments):
             measure = self._made(part, "TraceDistance", name, Input=points if cortex else None,
                                  Deformation=bent)
             if measure is not None:
-                self._set(measure, {**cortex, "Cavity": self.cavity})
+                self._set(measure, {**cortex, "Cavity": self.cavity,
+                                    "CavityLabels": self.cavity_labels})
 
     def _grids(self, ball):
         """An Electrode Grids of the electrodes, or None."""
@@ -527,7 +531,8 @@ class Case(Steps, Moments):
         return {"RestLandmarks": rest, "MeasuredLandmarks": measured,
                 "Traces": self._on_cortex(grids),
                 "Opening": self.part("opening"), "OpeningCentre": list(ball[0]),
-                "OpeningRadius": float(ball[1]), "Cavity": self.cavity, **self.cortex()}
+                "OpeningRadius": float(ball[1]), "Cavity": self.cavity,
+                "CavityLabels": self.cavity_labels, **self.cortex()}
 
     def fit_source(self):
         """The fit that bends the volume, or None."""
@@ -654,23 +659,6 @@ class Case(Steps, Moments):
                 self.resection.save(files[-1], frame, world_axes(self.volume))
         self.exported = files
         return files
-
-    @kept
-    def resect(self, **settings):
-        """Find how much tumour is left: see `brainshift.resect` for the settings.
-
-        Returns a `Resection`, also kept as `resection`. Raises `ValueError` without a volume, a
-        tumour and a cavity.
-        """
-        from .resecting import resect
-
-        missing = [role for role in ("volume", "tumour", "cavity") if getattr(self, role) is None]
-        if missing:
-            raise ValueError(f"the resection lacks a {missing[0]}")
-        self.resection = resect(
-            self.bent, self.tumour, self.cavity, tumour_labels=self.tumour_labels,
-            cavity_labels=self.cavity_labels, compare=self.comparison, **settings)
-        return self.resection
 
     def __repr__(self):
         roles = ", ".join(role for role in ROLES if getattr(self, role) is not None) or "no role"

@@ -35,8 +35,8 @@ _ROLES = {
 }
 
 #: Filters whose images have no role.
-_RESULTS = ("FreeFormDeformation", "CompareVolumes", "Moments", "FitDeformation", "RefinedLattice",
-            "DeformationLattice", "TraceDistance")
+_RESULTS = ("FreeFormDeformation", "CompareVolumes", "Moments", "Resection", "FitDeformation",
+            "RefinedLattice", "DeformationLattice", "TraceDistance")
 
 #: Colours of points in a view that tell themselves apart for all eyes (Okabe and Ito).
 _ORANGE, _BLUE = (0.902, 0.624, 0.0), (0.0, 0.447, 0.698)
@@ -273,6 +273,7 @@ def _measure(case):
 def _run(case, step, **settings):
     if step == "Tumour left":
         case.resect()
+        case.show_resection()
     elif step == "Moments":
         case.show_moments()
     elif step == "Report":

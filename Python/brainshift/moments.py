@@ -10,7 +10,8 @@ _KEPT = ("surface_level", "holds_outside", "mask_growth", "brain_labels", "tumou
          "landmarks_judge", "opening_ball")
 
 #: What a view shows of a case.
-_SHOWN = ("bent", "comparison", "traces", "electrodes", "trace_distance", "contact_distance")
+_SHOWN = ("bent", "comparison", "resected", "traces", "electrodes", "trace_distance",
+          "contact_distance")
 
 #: Settings that belong to roles of all moments.
 SHARED = ("holds_outside", "mask_growth", "brain_labels", "tumour_labels")
@@ -118,7 +119,8 @@ class Moments:
             raise ValueError("the case has one moment only; begin_moment adds another")
         view = view or simple.GetActiveViewOrCreate("RenderView")
         for case in self.moments:
-            simple.Hide(case.bent, view)
+            for source in filter(None, (case.bent, case.part("resected"))):
+                simple.Hide(source, view)
         scene = simple.GetAnimationScene()
         scene.UpdateAnimationUsingDataTimeSteps()
         scene.PlayMode = "Sequence"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How much of a tumour is left after a resection that moved the brain."""
 
+from .casesources import kept, stem
 from .fitting import Fit, is_kind, rigid_of
 from .images import Labels, fetched, interpolated
 from .maps import deformed_from_rest, rest_from_deformed
@@ -320,3 +321,65 @@ def resect(filter, tumour, cavity, tumour_labels=(), cavity_labels=(), compare=N
     result.map = _marked(before, removed, field, deformed)
     result.map_after = _marked_after(filter, before, removed, deformed)
     return result
+
+
+class Resections:
+    """The resection of a `Case`, which derives from this."""
+
+    @kept
+    def resect(self, **settings):
+        """Find how much tumour is left: see `brainshift.resect` for the settings.
+
+        Returns a `Resection`, also kept as `resection`. Raises `ValueError` without a volume, a
+        tumour and a cavity.
+        """
+        self._require("volume", "tumour", "cavity")
+        self.resection = resect(
+            self.bent, self.tumour, self.cavity, tumour_labels=self.tumour_labels,
+            cavity_labels=self.cavity_labels, compare=self.comparison, **settings)
+        return self.resection
+
+    @kept
+    def show_resection(self, view=None, look=None):
+        """Show the bent volume after its resection in a render view, in place of the whole one.
+
+        Removed tissue is cut away through the bend, and tumour that is left is coloured. The source
+        "T1 resection", a Resection filter, follows strokes, fits and roles from then on.
+
+        - `view`, `look`: see `show`
+
+        Returns the representation. Raises `ValueError` without a volume, a tumour and a cavity.
+        """
+        from paraview import simple
+
+        self._require("volume", "tumour", "cavity")
+        view = view or simple.GetActiveViewOrCreate("RenderView")
+        source = self.part("resected")
+        if source is None:
+            source = self._made("resected", "Resection", f"{stem(self.volume)} resection",
+                                Input=self.bent)
+            self._wire_resection()
+        self.hide_other_moments(view)
+        simple.Hide(self.bent, view)
+        if self.comparison is not None:
+            simple.Hide(self.comparison, view)
+        return self._shown(source, view, look)
+
+    def _require(self, *roles):
+        missing = [role for role in roles if getattr(self, role) is None]
+        if missing:
+            raise ValueError(f"the resection lacks a {missing[0]}")
+
+    def _wire_resection(self):
+        """Makes the source of the pictures follow the roles. Without tumour and cavity it goes."""
+        source = self.part("resected")
+        if source is None:
+            return
+        if self.tumour is None and self.cavity is None:
+            self._made("resected", "", "", Input=None)
+            return
+        compared = None not in (self.reference, self.comparison, self.cavity)
+        self._set(source, {
+            "Input": self.comparison if compared else self.bent, "Tumour": self.tumour,
+            "TumourLabels": self.tumour_labels, "Cavity": None if compared else self.cavity,
+            "CavityLabels": self.cavity_labels})

@@ -44,6 +44,7 @@
 #include "shader_rays.h"
 #include "shader_reference.h"
 #include "shader_refine_frag.h"
+#include "shader_resection.h"
 #include "shader_segment.h"
 #include "shader_similarity.h"
 #include "shader_skipping.h"
@@ -152,9 +153,11 @@ std::string opacityDefines(Opacity opacity)
     (opacity == Opacity::Table ? "#define STEEPNESS_TABLE\n" : "");
 }
 
-std::string segmentDefines()
+// `removed`, `tumour`: see RayCastVariant.
+std::string resectionDefines(bool removed, bool tumour)
 {
-  return "#define SEGMENTED\n#define LEAST_FRACTION " + std::to_string(LeastFraction) + "\n";
+  return "#define LEAST_FRACTION " + std::to_string(LeastFraction) + "\n" +
+    (removed ? "#define REMOVED\n" : "") + (tumour ? "#define TUMOUR\n" : "");
 }
 
 const char* const LightNames[RayCastVariant::LightCount] = { "_unshaded", "_gradients",
@@ -172,7 +175,8 @@ std::string nameOf(const RayCastVariant& variant)
     (variant.segmented ? "_segment" : "") + (variant.counted ? "_counted" : "") +
     (variant.sharedLight ? "_shared_light" : "") + (variant.averaged ? "_averaged" : "") +
     (variant.compared ? "_compared" : "") + (variant.cavity ? "_cavity" : "") +
-    opacities[static_cast<int>(variant.opacity)] + (variant.evidence ? "_evidence" : "");
+    opacities[static_cast<int>(variant.opacity)] + (variant.evidence ? "_evidence" : "") +
+    (variant.removed ? "_removed" : "") + (variant.tumour ? "_tumour" : "");
 }
 }
 
@@ -227,18 +231,20 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += variant.light == RayCastVariant::GradientTexture ? "#define GRADIENT_TEXTURE\n" : "";
   defines += coloringDefine(variant.coloring);
   defines += variant.regions ? "#define REGIONS\n" : "";
-  defines += variant.segmented ? segmentDefines() : "";
+  defines += variant.segmented ? "#define SEGMENTED\n" : "";
   defines += variant.sharedLight ? "#define SHARED_LIGHT\n" : "";
   defines += "#define TRANSFER_ENTRIES " + std::to_string(TransferEntries) + "\n";
   defines += variant.compared ? "#define COMPARED\n" : "";
   defines += variant.cavity ? "#define CAVITY\n" : "";
   defines += opacityDefines(variant.opacity);
   defines += variant.evidence ? "#define EVIDENCE\n" : "";
+  defines += resectionDefines(variant.removed, variant.tumour);
   return { outlineStage(), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
-      shader_gradient, shader_segment, shader_tissue, shader_cut, shader_components,
-      shader_evidence, shader_light, variant.counted ? std::string(shader_counting) : NotCounted,
-      shader_raycast, loopSource(variant) }) };
+      shader_gradient, shader_segment, shader_tissue, shader_cut, shader_resection,
+      shader_components, shader_evidence, shader_light,
+      variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast,
+      loopSource(variant) }) };
 }
 
 ShaderSource compositeSource(bool occluded)
@@ -273,11 +279,13 @@ ShaderSource slicesSource(const SlicesVariant& variant)
 {
   const std::string defines = fieldDefines() + (variant.deformed ? "#define DEFORMED\n" : "") +
     coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "") +
-    (variant.cavity ? "#define CAVITY\n" : "") + (variant.evidence ? "#define EVIDENCE\n" : "");
+    (variant.cavity ? "#define CAVITY\n" : "") + (variant.evidence ? "#define EVIDENCE\n" : "") +
+    resectionDefines(variant.removed, variant.tumour);
   return { assemble({ shader_slices_vert }), "",
-    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
-      shader_tissue, shader_components, shader_evidence, shader_cubic, shader_cavity,
-      shader_crosshair, shader_comparison, shader_similarity, shader_slices_frag }) };
+    assemble(
+      { Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment, shader_tissue,
+        shader_resection, shader_components, shader_evidence, shader_cubic, shader_cavity,
+        shader_crosshair, shader_comparison, shader_similarity, shader_slices_frag }) };
 }
 
 ShaderSource tracesSource(int tissues)
@@ -378,6 +386,25 @@ void addEvidence(NamedSources& sources)
   add(sources, compared);
 }
 
+// The ray caster of a volume after a resection.
+void addResected(NamedSources& sources)
+{
+  for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Slice, Blend::Maximum })
+  {
+    const bool lit = blend != Blend::Maximum;
+    RayCastVariant variant{ true, lit ? RayCastVariant::GradientTexture : RayCastVariant::Unshaded,
+      blend };
+    variant.removed = variant.tumour = true;
+    add(sources, variant);
+  }
+  RayCastVariant averaged{ true, RayCastVariant::GradientsOnTheFly };
+  averaged.averaged = averaged.segmented = averaged.removed = averaged.tumour = true;
+  add(sources, averaged);
+  RayCastVariant compared{ true, RayCastVariant::GradientTexture };
+  compared.compared = compared.removed = true;
+  add(sources, compared);
+}
+
 // The ray caster of a volume and a reference.
 void addCompared(NamedSources& sources, bool deformed)
 {
@@ -408,6 +435,7 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     addCompared(sources, deformed);
   }
   addEvidence(sources);
+  addResected(sources);
   sources.emplace_back("traces", tracesSource(0));
   sources.emplace_back("traces_hidden", tracesSource(MaxTissues));
   sources.emplace_back("slices_rest", slicesSource({}));
@@ -419,6 +447,8 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     "slices_evidence", slicesSource({ true, Coloring::Mapped, false, false, true }));
   sources.emplace_back(
     "slices_compared_evidence", slicesSource({ true, Coloring::Mapped, true, false, true }));
+  sources.emplace_back(
+    "slices_resected", slicesSource({ true, Coloring::Mapped, false, false, false, true, true }));
   return sources;
 }
 }

@@ -100,13 +100,16 @@ struct RayCastVariant
   bool cavity = false;               ///< The comparison ignores a cavity.
   Opacity opacity = Opacity::Scalar; ///< Others: Composite only, not compared, no GradientTexture.
   bool evidence = false;             ///< Evidence is shown; Composite, Isosurface and Slice only.
+  bool removed = false;              ///< Tissue of a resection is left out.
+  bool tumour = false;               ///< The tumour of a resection is marked.
 
   bool operator<(const RayCastVariant& other) const
   {
     const auto key = [](const RayCastVariant& variant) {
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
         variant.regions, variant.segmented, variant.counted, variant.sharedLight, variant.averaged,
-        variant.compared, variant.cavity, variant.opacity, variant.evidence);
+        variant.compared, variant.cavity, variant.opacity, variant.evidence, variant.removed,
+        variant.tumour);
     };
     return key(*this) < key(other);
   }
@@ -120,11 +123,16 @@ struct SlicesVariant
   bool compared = false; ///< Drawn with a reference.
   bool cavity = false;   ///< The comparison ignores a cavity.
   bool evidence = false; ///< Evidence is shown.
+  bool removed = false;  ///< Tissue of a resection is dark.
+  bool tumour = false;   ///< The tumour of a resection is marked.
 
   bool operator<(const SlicesVariant& other) const
   {
-    return std::tie(this->deformed, this->coloring, this->compared, this->cavity, this->evidence) <
-      std::tie(other.deformed, other.coloring, other.compared, other.cavity, other.evidence);
+    const auto key = [](const SlicesVariant& variant) {
+      return std::make_tuple(variant.deformed, variant.coloring, variant.compared, variant.cavity,
+        variant.evidence, variant.removed, variant.tumour);
+    };
+    return key(*this) < key(other);
   }
 };
 

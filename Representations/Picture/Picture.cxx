@@ -147,6 +147,11 @@ PictureStamp::Change PictureStamp::change(const DrawnVolume& drawn, unsigned lon
   add(now,
     { counters.volumeUploads, counters.transferUploads, counters.segmentUploads,
       counters.evidenceUploads, scene.evidence.deviations ? 1 : 0 });
+  for (const PlacedFractions& mask : { scene.resection.removed, scene.resection.tumour })
+  {
+    add(now, mask.ownFromTexture);
+    now.push_back(mask.fractions ? mask.fractions->GetHandle() : 0);
+  }
   addProps(now, drawn, scene);
   // Not the volume's own time: ParaView poses it for each picture anew.
   now.push_back(static_cast<double>(settingsTime));

@@ -313,6 +313,7 @@ void setRayCastUniforms(
   setSegmentUniforms(program, scene.tissue.segment);
   setColoringUniforms(program, scene.tissue.coloring);
   setEvidenceUniforms(program, scene.evidence);
+  setResectionUniforms(program, scene.resection);
   if (scene.comparison.reference)
   {
     setComparisonUniforms(program, scene);
@@ -325,7 +326,8 @@ void deactivateTextures(const RayCastScene& scene)
   for (vtkTextureObject* texture : { tissue.scalars, tissue.normals, tissue.transfer,
          scene.behind.depth, tissue.coloring.colors, tissue.coloring.scalars,
          tissue.segment.fractions, scene.skipping.presence->leaps(), scene.comparison.cavity.voxels,
-         tissue.transferSums, tissue.steepness.entries, scene.evidence.deviations })
+         tissue.transferSums, tissue.steepness.entries, scene.evidence.deviations,
+         scene.resection.removed.fractions, scene.resection.tumour.fractions })
   {
     if (texture)
     {
@@ -359,6 +361,8 @@ RayCastVariant variantOf(const RayCastScene& scene)
   variant.averaged = tissue.transferSums && variant.blend == Blend::Composite && !variant.compared;
   variant.opacity = variant.compared ? Opacity::Scalar : tissue.steepness.opacity;
   variant.evidence = scene.evidence.deviations != nullptr;
+  variant.removed = scene.resection.removed.fractions != nullptr;
+  variant.tumour = scene.resection.tumour.fractions && !variant.compared;
   variant.sharedLight =
     tissue.shaded && !variant.averaged && !variant.compared && tissue.raysEndSoon();
   return variant;

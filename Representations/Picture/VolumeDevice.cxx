@@ -147,6 +147,11 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
     return false;
   }
   scene.frame = frameOf(drawn, tissue.values);
+  const VolumePlace place{ scene.frame.worldFromTexture, drawn.volume->GetMatrix() };
+  if (!this->Resected.update(gpu, request.resection, place, scene.resection))
+  {
+    return false;
+  }
   scene.cuts = cutsOf(request.mapper, tissue.values, scene.frame, scene.field);
   scene.blending = blendingFor(request, tissue, this->Tissue.Textures, scene.frame);
   return true;
@@ -198,7 +203,7 @@ void VolumeDevice::addHeldBytes(Counters& counters)
   counters.gpuScalarBytes += textureBytes(this->Tissue.Textures.scalars());
   counters.gpuOtherBytes += this->Tissue.otherBytes() + this->Reference.bytes() +
     textureBytes({ this->Deformation.field().textures(), this->Picture.textures(),
-      { this->Evidence.texture() } });
+      { this->Evidence.texture() }, this->Resected.textures() });
   this->Deformation.askTime(counters.gpuFieldMicroseconds);
 }
 
@@ -208,6 +213,7 @@ void VolumeDevice::Release(vtkWindow* window)
   this->Reference.releaseGraphicsResources(window);
   this->Deformation.releaseGraphicsResources(window);
   this->Evidence.releaseGraphicsResources(window);
+  this->Resected.releaseGraphicsResources(window);
   this->Picture.releaseGraphicsResources(window);
   this->Cover.releaseGraphicsResources();
 }

@@ -9,6 +9,7 @@
 #include "Representations/Picture/Picture.h"
 #include "Representations/Picture/SelectionCover.h"
 #include "Representations/Tissue/DeviceTissue.h"
+#include "Representations/Tissue/ResectionTextures.h"
 #include "Representations/Tissue/SceneReference.h"
 
 class vtkVolumeMapper;
@@ -25,6 +26,7 @@ struct VolumeRequest
   TissueRequest tissue;
   SceneReference reference;
   bool showsEvidence = false;
+  Resection resection;
   double memoryLimitMiB = 0.0; ///< 0: all that the driver gives.
   PictureWish wish;            ///< Position and size are filled in by draw.
 };
@@ -63,6 +65,7 @@ private:
   DeviceReference Reference;
   DeviceDeformation Deformation;
   EvidenceTexture Evidence;
+  ResectionTextures Resected;
   brainshift::Picture Picture;
   SelectionCover Cover;
   GpuMemory Memory;

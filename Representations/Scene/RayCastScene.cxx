@@ -77,6 +77,24 @@ void deactivateField(const SceneField& field)
   }
 }
 
+void setResectionUniforms(Program& program, const SceneResection& resection)
+{
+  if (vtkTextureObject* removed = resection.removed.fractions)
+  {
+    program.set("removed", removed);
+    program.set("removedFromTexture", glm::mat4(resection.removed.ownFromTexture));
+    program.set("removedTexel",
+      1.0f / glm::vec3(removed->GetWidth(), removed->GetHeight(), removed->GetDepth()));
+  }
+  if (resection.tumour.fractions)
+  {
+    program.set("tumour", resection.tumour.fractions);
+    program.set("tumourFromTexture", glm::mat4(resection.tumour.ownFromTexture));
+    program.set("leftTint", LeftTumourTint);
+    program.set("removedTint", RemovedTumourTint);
+  }
+}
+
 void setEvidenceUniforms(Program& program, const SceneEvidence& evidence)
 {
   if (evidence.deviations)

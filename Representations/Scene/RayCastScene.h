@@ -194,6 +194,20 @@ struct SceneEvidence
   glm::dvec3 stripesFromTexture{ 1.0 }; ///< Stripes for a texture unit.
 };
 
+/// The fractions of a mask, as SegmentFractions.h has them.
+struct PlacedFractions
+{
+  vtkTextureObject* fractions = nullptr; ///< Null: there is no mask.
+  glm::dmat4 ownFromTexture{ 1.0 };      ///< Its texture coordinates from the volume's.
+};
+
+/// What a resection removed, and its tumour. Filled by ResectionTextures::update.
+struct SceneResection
+{
+  PlacedFractions removed; ///< In the deformed frame.
+  PlacedFractions tumour;  ///< At rest.
+};
+
 /// Everything that one picture depends on.
 struct RayCastScene
 {
@@ -207,6 +221,7 @@ struct RayCastScene
   SceneBehind behind;
   SceneComparison comparison;
   SceneEvidence evidence;
+  SceneResection resection;
 
   /// Step along the ray, mm.
   double stepMm() const { return this->tissue.stepMm * (1 << this->image.stepDoublings); }
@@ -227,6 +242,9 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT void deactivateField(const SceneField& field
 
 /// What Shaders/Tissue/evidence.glsl needs. Nothing if evidence is not shown.
 void setEvidenceUniforms(Program& program, const SceneEvidence& evidence);
+
+/// What Shaders/Tissue/resection.glsl needs. Nothing of a mask that is not there.
+void setResectionUniforms(Program& program, const SceneResection& resection);
 
 /// What Shaders/Tissue/components.glsl needs.
 void setColoringUniforms(Program& program, const SceneColoring& coloring);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The colours in which pictures show a reference, and the uncertainty of tissue.
+/// The colours in which pictures show a reference, the uncertainty of tissue, and a tumour.
 #ifndef BrainShift_Tints_h
 #define BrainShift_Tints_h
 
@@ -21,6 +21,10 @@ constexpr glm::vec3 EvidenceLimits(1.0f, 2.0f, 4.0f);
 constexpr glm::mat3 EvidenceTints(0.34f, 0.71f, 0.91f, 0.90f, 0.62f, 0.00f, 0.80f, 0.47f, 0.65f);
 
 constexpr double EvidenceStripeMm = 6.0; ///< From one stripe to the next.
+
+// The tumour of a resection, as the report draws it; of the same palette.
+constexpr glm::vec3 LeftTumourTint(0.84f, 0.37f, 0.00f);    ///< Vermilion.
+constexpr glm::vec3 RemovedTumourTint(0.34f, 0.71f, 0.91f); ///< Sky blue: removed tissue is dark.
 
 /// Pairs of colours, numbered as the property ComparisonColors.
 enum class ComparisonColors

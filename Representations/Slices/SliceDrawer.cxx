@@ -136,6 +136,7 @@ void setSliceUniforms(Program& program, const SliceScene& scene, double scale)
   }
   setColoringUniforms(program, scene.tissue.coloring);
   setEvidenceUniforms(program, scene.evidence);
+  setResectionUniforms(program, scene.resection);
   program.set("clipFromTexture", glm::mat4(clipFromTexture(scene.frame)));
   program.set("voxels", glm::vec3(scene.voxels));
   program.set("cubic", scene.cubic ? 1 : 0);
@@ -154,7 +155,8 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
   const SceneTissue& tissue = scene.tissue;
   const SlicesVariant variant{ scene.field.offsets != nullptr, tissue.coloring.source,
     scene.reference.place.scalars != nullptr, scene.reference.cavity.voxels != nullptr,
-    scene.evidence.deviations != nullptr };
+    scene.evidence.deviations != nullptr, scene.resection.removed.fractions != nullptr,
+    scene.resection.tumour.fractions != nullptr };
   Program& program = this->Programs[variant];
   if (!program.use(window, slicesSource(variant), counters))
   {
@@ -188,7 +190,8 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
   }
   for (vtkTextureObject* texture :
     { tissue.scalars, tissue.transfer, tissue.coloring.colors, tissue.coloring.scalars,
-      scene.reference.place.scalars, scene.reference.cavity.voxels, scene.evidence.deviations })
+      scene.reference.place.scalars, scene.reference.cavity.voxels, scene.evidence.deviations,
+      scene.resection.removed.fractions, scene.resection.tumour.fractions })
   {
     if (texture)
     {

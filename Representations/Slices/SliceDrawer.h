@@ -111,6 +111,7 @@ struct SliceScene
   SlicePlanes planes;
   ReferenceScene reference;
   SceneEvidence evidence;
+  SceneResection resection;
   glm::ivec3 voxels{ 1 };            ///< Of the scalars, a side.
   bool cubic = false;                ///< Cubic filter; else as the textures filter.
   double opacity = 1.0;              ///< Of everything, 0 to 1.

@@ -106,6 +106,25 @@ std::vector<char> bricksReaching(
   return reaching;
 }
 
+vtkSmartPointer<vtkTextureObject> fractionTexture(vtkOpenGLRenderWindow* window,
+  std::vector<std::uint8_t> fractions, const glm::ivec3& side, Counters& counters)
+{
+  auto texture = vtkSmartPointer<vtkTextureObject>::New();
+  texture->SetContext(window);
+  texture->SetMinificationFilter(vtkTextureObject::Linear);
+  texture->SetMagnificationFilter(vtkTextureObject::Linear);
+  texture->SetInternalFormat(drawsInSoftware() ? GL_R32F : GL_R8); // as of the scalars
+  texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  texture->SetWrapR(vtkTextureObject::ClampToEdge);
+  counters.segmentUploads += 1;
+  counters.bytesUploaded += static_cast<std::int64_t>(fractions.size());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const bool made =
+    texture->Create3DFromRaw(side.x, side.y, side.z, 1, VTK_UNSIGNED_CHAR, fractions.data());
+  return made ? texture : nullptr;
+}
+
 SegmentTexture::SegmentTexture() = default;
 SegmentTexture::~SegmentTexture() = default;
 
@@ -144,21 +163,9 @@ bool SegmentTexture::update(
   std::vector<std::uint8_t> fractions = segmentFractions(segment, request.points);
   const glm::ivec3& side = request.points.dimensions;
   this->Reaching = bricksReaching(fractions, side);
-  this->Texture = vtkSmartPointer<vtkTextureObject>::New();
-  this->Texture->SetContext(window);
-  this->Texture->SetMinificationFilter(vtkTextureObject::Linear);
-  this->Texture->SetMagnificationFilter(vtkTextureObject::Linear);
-  this->Texture->SetInternalFormat(drawsInSoftware() ? GL_R32F : GL_R8); // as of the scalars
-  this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
-  this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  counters.segmentUploads += 1;
-  counters.bytesUploaded += static_cast<std::int64_t>(fractions.size());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  if (!this->Texture->Create3DFromRaw(
-        side.x, side.y, side.z, 1, VTK_UNSIGNED_CHAR, fractions.data()))
+  this->Texture = fractionTexture(window, std::move(fractions), side, counters);
+  if (!this->Texture)
   {
-    this->Texture = nullptr;
     return false;
   }
   this->Uploaded = request;

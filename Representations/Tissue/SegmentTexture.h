@@ -40,6 +40,10 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickRanges rangesWithin(
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<char> bricksReaching(
   const std::vector<std::uint8_t>& fractions, const glm::ivec3& dimensions);
 
+/// A texture of fractions, linear in between; null if the GPU refuses.
+vtkSmartPointer<vtkTextureObject> fractionTexture(vtkOpenGLRenderWindow* window,
+  std::vector<std::uint8_t> fractions, const glm::ivec3& side, Counters& counters);
+
 /// The fractions of one segment on the GPU of one window.
 class SegmentTexture
 {

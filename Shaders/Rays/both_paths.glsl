@@ -109,7 +109,8 @@ void see(
   vec2 other = vec2(0.0);
   if (opacities.x > 0.0 && 1.0 - seen.own.opacity > Negligible)
   {
-    vec3 gradient = turn * deformedGradientFromRest(slopes, litGradientAt(rest));
+    vec3 gradient =
+      atWall(turn * deformedGradientFromRest(slopes, litGradientAt(rest)), deformed, turn);
     own = lightOf(gradient, path.towardsEye, deformed);
   }
   if (opacities.y > 0.0 && 1.0 - seen.other.opacity > Negligible)

@@ -44,7 +44,8 @@ vec3 restAt(March march, float number)
 
 bool inKeptTissue(vec3 deformed, vec3 rest)
 {
-  return insideVolume(rest) && inKeptRegion(deformed) && inSegment(rest);
+  return insideVolume(rest) && inKeptRegion(deformed) && inSegment(rest) &&
+    remains(deformed);
 }
 
 // A sample's colour under light, with a Jacobian of its own.

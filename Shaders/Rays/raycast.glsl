@@ -53,7 +53,7 @@ vec4 hitAt(float t)
 Shine shineOf(vec3 deformed, vec3 restGradient, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
 #ifdef SHADED
-  vec3 gradient = turn * deformedGradientFromRest(slopes, restGradient);
+  vec3 gradient = atWall(turn * deformedGradientFromRest(slopes, restGradient), deformed, turn);
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
   return shineOn(normal, towardsEye, worldFromDeformed(deformed));

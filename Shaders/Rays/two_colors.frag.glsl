@@ -27,7 +27,7 @@ bool takeTwo(
       positionOf(path.reference, i + 1.0), path.other, i);
   }
   vec2 regions = vec2(inKeptRegion(oneDeformed), inKeptRegion(twoDeformed));
-  own *= regions;
+  own *= regions * vec2(remainingAt(oneDeformed), remainingAt(twoDeformed));
   other *= regions;
   bool visible = max(max(own.x, own.y), max(other.x, other.y)) > 0.0;
   if (visible)

@@ -14,7 +14,7 @@ void main()
   float scalar = filteredAt(scalars, rest, voxels);
   bool hasTissue = insideVolume(rest) && isNumber(scalar);
   vec4 tissue = tissueOf(scalar);
-  vec4 seen = vec4(colorOf(tissue, rest), tissue.a);
+  vec4 seen = vec4(markedInSlice(ownColorOf(tissue, rest), deformed, rest), tissue.a);
   bool drawn = compare(hasTissue, scalar, Place(deformed, rest), seen);
   vec3 lineColor;
   if (onCrosshair(deformed, lineColor))

@@ -38,11 +38,12 @@ vec4 averageOf(TissueTable table, Entry from, Entry to, float scalar)
   return vec4(average.rgb / max(average.a, 1e-6), average.a);
 }
 
-// The fraction of the map's opacity that is drawn, after cropping, the volume's box and a segment.
+// The fraction of the map's opacity that is drawn, after cropping, the volume's box, a segment
+// and a resection.
 float drawnFraction(TissueTable table, vec3 deformed, vec3 rest, float scalar)
 {
   bool drawn = inKeptRegion(deformed) && insideVolume(table, rest) && isNumber(scalar);
-  return drawn ? segmentOpacityAt(rest) : 0.0;
+  return drawn ? segmentOpacityAt(rest) * remainingAt(deformed) : 0.0;
 }
 
 float scalarOfSample(Path path, float i)

@@ -10,8 +10,10 @@ bool colorsOfTwo(Path path, TissueTable table, Pair pair, float i, inout Seen se
   }
   one = tissueAt(table, pair.oneRest, pair.oneScalar);
   two = tissueAt(table, pair.twoRest, pair.twoScalar);
-  one.a = inKeptRegion(pair.oneDeformed) ? one.a : 0.0;
-  two.a = i + 1.0 < path.samples.y && inKeptRegion(pair.twoDeformed) ? two.a : 0.0;
+  one.a = inKeptRegion(pair.oneDeformed) ? one.a * remainingAt(pair.oneDeformed) : 0.0;
+  two.a = i + 1.0 < path.samples.y && inKeptRegion(pair.twoDeformed)
+    ? two.a * remainingAt(pair.twoDeformed)
+    : 0.0;
   return true;
 }
 

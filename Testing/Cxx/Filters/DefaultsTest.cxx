@@ -16,6 +16,7 @@
 #include "vtkMoments.h"
 #include "vtkRefinedLattice.h"
 #include "vtkRegistrationRun.h"
+#include "vtkResection.h"
 #include "vtkSurfaceReader.h"
 #include "vtkTraceDistance.h"
 #include "vtkTransformPoints.h"
@@ -135,6 +136,13 @@ TEST(Defaults, OfElectrodeGridsLiveInTheClass)
     { "Threshold", { filter->GetThreshold() } },
   };
   EXPECT_EQ(defaultsIn("Filters/Proxies/ElectrodeGrids.xml"), expected);
+}
+
+TEST(Defaults, OfResectionLiveInTheClass)
+{
+  vtkNew<vtkResection> filter;
+  const Defaults expected{ { "RemoveTissue", { double(filter->GetRemoveTissue()) } } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/Resection.xml"), expected);
 }
 
 TEST(Defaults, OfMomentsLiveInTheClass)

@@ -302,6 +302,15 @@ def test_traces_that_all_lie_in_the_cavity_are_said():
     with messages() as said:
         brainshift.fit(deformation(), traces=on_ball(20), cavity=everything, threshold=50.0)
     assert_says(said.text, "All traced points are in the cavity")
+    # Of a segmentation after surgery, one label is the cavity and others are tissue.
+    labels = numpy.ones((SIDE,) * 3, numpy.uint8)
+    labels[0, 0, 0] = 7
+    with messages() as said:
+        fit = brainshift.fit(deformation(), traces=on_ball(20), threshold=50.0)
+        fit.filter.CavityLabels = [7]
+        fit.filter.Cavity = volume(labels, spacing=(SPACING,) * 3)
+        fit.filter.UpdatePipeline()
+    assert "cavity" not in said.text, said.text
 
 
 def test_few_landmarks_that_turned_far_are_said():

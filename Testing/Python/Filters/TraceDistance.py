@@ -105,6 +105,10 @@ def test_a_cavity_is_left_out():
     assert 0 < gone.sum() < 50
     assert numpy.array_equal(numpy.isnan(distances(measured)), gone)
     assert numbers(measured)[0] == 50 - gone.sum()
+    # Of a segmentation after surgery, one label is the cavity and others are tissue.
+    labelled = volume(numpy.where(z > 20, 7, 1).astype(numpy.uint8))
+    by_label = traced(points, Cavity=labelled, CavityLabels=[7])
+    assert numpy.array_equal(numpy.isnan(distances(by_label)), gone)
 
 
 def test_a_real_brain():

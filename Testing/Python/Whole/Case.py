@@ -82,6 +82,8 @@ def test_roles_in_any_order_make_one_pipeline():
         assert case.trace_distance.Input == case.traces
         assert case.trace_distance.Segmentation == case.brain
         assert case.trace_distance.Cavity == case.cavity == case.comparison.Cavity
+        case.cavity_labels = [1]
+        assert list(case.trace_distance.CavityLabels) == [1] == list(case.comparison.CavityLabels)
         assert case.comparison.Reference == case.reference
     assert seen[0] == seen[1], seen
     case.reference = None
@@ -244,6 +246,46 @@ def test_the_resection_of_a_case_is_written():
     labels.UpdatePipeline()
     image = servermanager.Fetch(labels)
     assert image.GetScalarRange() == (0.0, 2.0)
+
+
+def test_pictures_of_the_resection_follow_the_roles():
+    clear()
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),
+                           tumour=path("sub-1_Tumor.nii.gz"))
+    assert_says(said_by(case.show_resection), "lacks a cavity")
+    case.cavity = path("cavity.nii.gz")
+    view = simple.CreateView("RenderView")
+    case.show(view)
+    case.show_resection(view)
+    source = case.part("resected")
+    assert (source.Input, source.Tumour, source.Cavity) == (case.bent, case.tumour, case.cavity)
+    assert [shown.Input for shown in view.Representations if shown.Visibility] == [source]
+    assert servermanager.Fetch(source).GetFieldData().HasArray("RemovedVoxels")
+    case.cavity_labels, case.tumour_labels = [1], [1]
+    assert list(source.CavityLabels) == [1] and list(source.TumourLabels) == [1]
+    case.reference = path("sub-1_postop.nii.gz")
+    assert source.Input == case.comparison and source.Cavity is None
+    case.reference = None
+    assert (source.Input, source.Cavity, case.comparison) == (case.bent, case.cavity, None)
+    simple.SaveState(scratch("resected.pvsm"))
+    case.cavity = None
+    assert source.Cavity is None and case.part("resected") == source
+    case.tumour = None
+    assert case.part("resected") is None and "sub-1_T1w resection" not in names()
+    clear()
+    simple.LoadState(scratch("resected.pvsm"))
+    again, = brainshift.Case.all()
+    again.cavity_labels = []
+    assert list(again.part("resected").CavityLabels) == []
+
+
+def said_by(function):
+    """What a function says that refuses."""
+    try:
+        function()
+    except ValueError as error:
+        return str(error)
+    raise AssertionError("nothing was refused")
 
 
 def test_results_are_forgotten_when_the_case_changes():
