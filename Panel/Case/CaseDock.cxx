@@ -358,7 +358,7 @@ void CaseDock::dropEvent(QDropEvent* event)
 
 void CaseDock::run(const QString& step)
 {
-  static const QStringList changing{ "Look", "Measure", "Fit", "Moments" };
+  static const QStringList changing{ "Look", "Measure", "Fit", "Tumour left", "Moments" };
   const bool changesPipeline = changing.contains(step);
   if (step == "By hand")
   {

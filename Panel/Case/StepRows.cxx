@@ -79,7 +79,9 @@ Words wordsOf(const QString& step)
         tr("Write the bent volume, its displacement field and the labels of the tumour into a "
            "folder.") } },
     { "Tumour left",
-      { tr("Tumour Left"), tr("Measure how much tumour is left after the resection.") } },
+      { tr("Tumour Left"),
+        tr("Measure how much tumour is left after the resection, and show it: removed "
+           "tissue is cut away.") } },
     { "Report", { tr("Report..."), tr("Write a page with pictures and figures of the case.") } },
     { "Moments",
       { tr("Show Moments"),

@@ -3,8 +3,8 @@
 dropped or opened as a file wires the pipeline in one step to undo, and undo and redo lead there and
 back; a folder's files are shown for correction before anything is opened; steps say what they lack
 and found; the fit is one press; a wrong file is refused with its reason; refining, judging,
-exporting and the report work by their buttons; another moment of the surgery is begun, shown and
-undone; and a state brings the dock back.
+exporting, the report and the tumour that is left work by their buttons; another moment of the
+surgery is begun, shown and undone; and a state brings the dock back.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
@@ -231,6 +231,22 @@ def second():
     return brainshift.Case.all()[1]
 
 
+def shown():
+    """The sources that the active view shows."""
+    return [display.Input for display in simple.GetActiveView().Representations
+            if display.Visibility and hasattr(display, "Input")]
+
+
+def the_tumour_that_is_left_is_shown():
+    assert hand.click("BrainShiftCaseTumourleft")
+    window.until(lambda: "ml left" in text_of("Tumourleft"), "the resection", 60.0)
+    settled()
+    resected = simple.FindSource("sub-1_T1w resection")
+    assert resected in shown() and second().bent not in shown(), shown()
+    undo("Tumour left")
+    assert simple.FindSource("sub-1_T1w resection") is None and second().bent in shown(), shown()
+
+
 def a_reference_is_refined():
     assert hand.click("BrainShiftCaseRefine")
     window.until(lambda: "Finished" in text_of("Refine") or "compared" in text_of("Refine"),
@@ -273,4 +289,4 @@ window.main("CaseByHand", [
     (a_wrong_file_is_refused,), (traces_are_opened_measured_and_fitted,),
     (by_hand_takes_the_stamp,), (another_moment_is_begun_and_shown,),
     (a_folder_is_sorted_and_corrected,), (a_reference_is_refined,), (files_are_written,),
-    (a_state_brings_the_dock_back,)])
+    (the_tumour_that_is_left_is_shown,), (a_state_brings_the_dock_back,)])
