@@ -61,7 +61,7 @@ struct Patient
       { 3.0 * number - 4.0, 5.0 - 3.0 * number }, NoiseMm, 50 + number);
   }
 
-  std::vector<SurfacePoint> anchors(const Sheet& sheet) const
+  OpeningBall opening(const Sheet& sheet) const
   {
     std::vector<glm::dvec3> contacts;
     for (const std::optional<glm::dvec3>& contact : sheet.contacts)
@@ -71,7 +71,12 @@ struct Patient
         contacts.push_back(*contact);
       }
     }
-    const OpeningBall ball = ballAround(contacts);
+    return ballAround(contacts);
+  }
+
+  std::vector<SurfacePoint> anchors(const Sheet& sheet) const
+  {
+    const OpeningBall ball = this->opening(sheet);
     return chooseAnchors(cortexPoints(), [&](const glm::dvec3& rest) {
       return glm::distance(rest, ball.centre) < ball.radiusMm + AnchorMarginMm;
     });
@@ -110,7 +115,8 @@ struct Figures
   Figure tissue; // mm: where the fit puts the tissue of contacts that are left out
   Figure tissueByTraces;
   Figure pitch;  // a fraction: of mean distances at rest, of each patient
-  Figure beyond; // mm: cortex beyond the opening
+  Figure still;  // mm: what moves of the cortex that stays where it is
+  Figure beyond; // mm: of that, cortex beyond the opening that the fit knows, around the contacts
 };
 
 // Leaves out some contacts of a patient and adds what that shows.
@@ -160,11 +166,17 @@ void judge(const Patient& patient, const std::set<int>& left, Figures& figures)
     }
   }
   figures.pitch.add(std::abs(sum / count));
+  const OpeningBall opening = patient.opening(sheet);
   for (const SurfacePoint& point : cortexPoints())
   {
     if (glm::distance(point.position, patient.sag.centre) > patient.sag.radiusMm + AnchorMarginMm)
     {
-      figures.beyond.add(std::abs(glm::dot(point.normal, fit.bend(point.position))));
+      const double moved = std::abs(glm::dot(point.normal, fit.bend(point.position)));
+      figures.still.add(moved);
+      if (glm::distance(point.position, opening.centre) > opening.radiusMm + AnchorMarginMm)
+      {
+        figures.beyond.add(moved);
+      }
     }
   }
 }
@@ -173,11 +185,12 @@ void print(const GridShape& shape, const char* what, const Figures& f)
 {
   std::printf(
     "%dx%d %4.1f mm%s %-9s | left out %.2f mm (largest %.2f), filled in %.2f | at rest %.2f, "
-    "nearest %.2f, traces %.2f | tissue %.2f, traces %.2f | pitch %.1f %% | beyond %.2f\n",
+    "nearest %.2f, traces %.2f | tissue %.2f, traces %.2f | pitch %.1f %% | still %.2f, beyond the "
+    "opening %.2f\n",
     shape.rows, shape.columns, shape.pitchMm, shape.isLaidBefore ? " laid before" : "", what,
     f.leftBent.mean(), f.leftBent.largest, f.leftFilled.mean(), f.rest.mean(),
     f.restByNearest.mean(), f.restByTraces.mean(), f.tissue.mean(), f.tissueByTraces.mean(),
-    100.0 * f.pitch.largest, f.beyond.largest);
+    100.0 * f.pitch.largest, f.still.largest, f.beyond.largest);
 }
 }
 
@@ -205,7 +218,8 @@ TEST_P(SheetFitOf, PredictsContactsThatAreLeftOut)
   EXPECT_LT(figures.leftBent.mean(), shape.isLaidBefore ? 0.75 : 0.6);
   EXPECT_LT(figures.rest.mean(), figures.restByNearest.mean());
   EXPECT_LT(figures.pitch.largest, 0.02);
-  EXPECT_LT(figures.beyond.mean(), 0.1);
+  EXPECT_LT(figures.still.mean(), 0.1);
+  EXPECT_LT(figures.beyond.largest, 0.55); // 0.51 where a sheet of 8 x 8 was laid before the sag
 }
 
 TEST_P(SheetFitOf, PredictsRowsThatAreLeftOut)
