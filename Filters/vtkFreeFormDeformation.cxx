@@ -210,6 +210,10 @@ void vtkFreeFormDeformation::Bend(
   Segmentation segmentation = state.Segmentations.find(segments ? segments : maskImage, volumeGrid);
   this->ReplayStrokes(start, strokes);
   segmentation.chosen = segments ? std::vector<int>() : this->ChosenLabels();
+  if (maskImage && (!segments || segments == maskImage))
+  {
+    segmentation.moving = this->ChosenLabels();
+  }
   state.LastSegmentation = segmentation;
   Lattice result = state.StrokeReplay.result();
   std::swap(state.LastGood.lattice, result); // all of it or nothing

@@ -7,7 +7,6 @@
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 
 namespace brainshift
 {
@@ -15,12 +14,34 @@ namespace
 {
 constexpr const char* GridName = "FFDSegmentationGrid";
 constexpr const char* ChosenName = "FFDSegmentationLabels";
+constexpr const char* MovingName = "FFDSegmentationMoving";
+
+vtkSmartPointer<vtkDataArray> arrayOf(const char* name, const std::vector<int>& labels)
+{
+  auto array = vtkSmartPointer<vtkIntArray>::New();
+  array->SetName(name);
+  for (const int label : labels)
+  {
+    array->InsertNextValue(label);
+  }
+  return array;
+}
+
+std::vector<int> labelsIn(vtkDataArray* array)
+{
+  std::vector<int> labels;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    labels.push_back(static_cast<int>(array->GetComponent(i, 0)));
+  }
+  return labels;
+}
 }
 
 void attachSegmentation(vtkDataObject* volume, const Segmentation& segmentation)
 {
   vtkFieldData* fields = volume->GetFieldData();
-  for (const char* name : { SegmentationName, GridName, ChosenName })
+  for (const char* name : { SegmentationName, GridName, ChosenName, MovingName })
   {
     fields->RemoveArray(name);
   }
@@ -34,13 +55,13 @@ void attachSegmentation(vtkDataObject* volume, const Segmentation& segmentation)
   attachGrid(fields, GridName, segmentation.grid);
   if (!segmentation.chosen.empty())
   {
-    vtkNew<vtkIntArray> chosen;
-    chosen->SetName(ChosenName);
-    for (const int label : segmentation.chosen)
-    {
-      chosen->InsertNextValue(label);
-    }
-    fields->AddArray(chosen);
+    fields->AddArray(arrayOf(ChosenName, segmentation.chosen));
+  }
+  if (segmentation.moving)
+  {
+    std::vector<int> counted{ static_cast<int>(segmentation.moving->size()) };
+    counted.insert(counted.end(), segmentation.moving->begin(), segmentation.moving->end());
+    fields->AddArray(arrayOf(MovingName, counted));
   }
 }
 
@@ -55,12 +76,11 @@ Segmentation readSegmentation(vtkDataObject* volume)
     return segmentation;
   }
   segmentation.labels = labels;
-  if (vtkDataArray* chosen = fields->GetArray(ChosenName))
+  segmentation.chosen = labelsIn(fields->GetArray(ChosenName));
+  const std::vector<int> moving = labelsIn(fields->GetArray(MovingName));
+  if (!moving.empty() && moving.front() == static_cast<int>(moving.size()) - 1)
   {
-    for (vtkIdType i = 0; i < chosen->GetNumberOfTuples(); ++i)
-    {
-      segmentation.chosen.push_back(static_cast<int>(chosen->GetComponent(i, 0)));
-    }
+    segmentation.moving.emplace(moving.begin() + 1, moving.end());
   }
   return segmentation;
 }

@@ -8,6 +8,9 @@
 ///     FFDSegmentationGrid    see attachGrid in CarriedArray.h
 ///     FFDSegmentationLabels  int: the labels that are drawn if the user chooses none; absent: all
 ///                            above 0
+///     FFDSegmentationMoving  int: how many labels, and then the labels of the tissue that may
+///                            move, 0 labels: all above 0. Only where the mask of the deformation
+///                            is these labels
 ///     FFDSegmentationValues  ... Names, ... Colors: as LabelTable.h says, where the labels have
 ///                            names
 #ifndef BrainShift_Segmentation_h
@@ -19,6 +22,8 @@
 
 #include "vtkDataArray.h" // for its smart pointer
 #include "vtkSmartPointer.h"
+
+#include <optional>
 
 class vtkDataObject;
 class vtkImageData;
@@ -34,10 +39,12 @@ constexpr const char* SegmentationLabels = SegmentationName;
 /** What the arrays hold. */
 struct Segmentation
 {
-  vtkSmartPointer<vtkDataArray> labels; ///< null: none
-  Grid grid;                            ///< of the labels
-  std::vector<int> chosen;              ///< drawn if the user chooses none; empty: all above 0
-  std::vector<Label> names;             ///< of labels that have one; readSegmentation leaves it
+  vtkSmartPointer<vtkDataArray> labels;   ///< null: none
+  Grid grid;                              ///< of the labels
+  std::vector<int> chosen;                ///< drawn if the user chooses none; empty: all above 0
+  std::optional<std::vector<int>> moving; ///< those of the mask, if it is these labels; empty: all
+                                          ///< above 0
+  std::vector<Label> names;               ///< of labels that have one; readSegmentation leaves it
 };
 
 /**

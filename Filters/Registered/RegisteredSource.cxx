@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Registered/RegisteredSource.h"
 
+#include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Filters/Attached/ReferenceVolume.h"
+#include "Filters/Attached/Segmentation.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
@@ -19,6 +21,7 @@ namespace brainshift
 namespace
 {
 constexpr double PositionTolerance = 1e-3; // voxels
+constexpr double ComparedBesideMm = 1.0;   // of the mask
 
 vtkDataArray* scalarsOf(vtkImageData* image)
 {
@@ -97,6 +100,20 @@ Mask maskOf(const Lattice& lattice)
   }
   return mask;
 }
+}
+
+void compareMovingTissue(vtkImageData* image, RegisteredPair& pair)
+{
+  const Segmentation segmentation = readSegmentation(image);
+  if (segmentation.labels && segmentation.moving && !pair.inside.inside.empty())
+  {
+    Mask moving = segmentOf(segmentation, *segmentation.moving);
+    requireHostMemory(
+      "Growing a mask of " + sizeText(glm::dvec3(moving.grid.dimensions)) + " voxels",
+      MaskGrowthBytes * static_cast<double>(moving.grid.count()));
+    growMask(moving, ComparedBesideMm);
+    pair.inside = std::move(moving);
+  }
 }
 
 RegisteredGrids findGrids(vtkImageData* image)

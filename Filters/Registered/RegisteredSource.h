@@ -35,6 +35,15 @@ RegisteredGrids findGrids(vtkImageData* image);
 RegisteredSource readSource(vtkImageData* image);
 
 /**
+ * The tissue that a refinement compares: that which may move. Where the volume carries the mask of
+ * its deformation (Segmentation.h), it is the mask and 1 mm around it, for its edge has to be seen
+ * (0 and 2 mm are alike), and not all that the width of the fade lets move a little: bone beside a
+ * brain that sank looks much like its cortex by another contrast, and held the cortex 7 of 8 mm
+ * away. Otherwise it is what readSource found.
+ */
+void compareMovingTissue(vtkImageData* image, RegisteredPair& pair);
+
+/**
  * Throws a Problem if nothing can be compared: no voxel of the volume or of the reference counts,
  * because it is not finite, outside the mask, or in the cavity; or all that count have one value.
  */

@@ -169,6 +169,10 @@ void vtkRegistrationRun::Begin(bool bends)
       (bends ? Refinement::bytes(grids.rest, grids.reference, {}, settings)
              : Alignment::bytes(grids.rest, grids.reference)));
   RegisteredSource source = readSource(image);
+  if (bends)
+  {
+    compareMovingTissue(image, source.pair);
+  }
   requireContent(source.pair);
   this->Internal->Outside = source.pair.cavity.inside.empty() ? "" : " outside the cavity";
   if (bends)

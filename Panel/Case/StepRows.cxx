@@ -26,6 +26,7 @@ enum Column
 // Makes a label as high as its lines: a grid in a scroll area does not ask for that.
 void fitHeight(QLabel* label)
 {
+  label->setMinimumHeight(0); // else the height for a width is at least the former one
   label->setMinimumHeight(label->heightForWidth(label->width()));
 }
 

@@ -116,6 +116,21 @@ TEST_F(SegmentedFilter, CarriesTheNamesOfTheLabels)
   EXPECT_EQ(labelName(output(), 1.0), "") << "a table that is not whole";
 }
 
+TEST_F(SegmentedFilter, SaysWhichLabelsMayMove)
+{
+  const auto labels = labelsOn(VolumeGrid);
+  this->Filter->SetInputDataObject(3, labels);
+  EXPECT_FALSE(this->attached().moving) << "a segmentation holds nothing still";
+  this->Filter->SetInputDataObject(2, labels);
+  EXPECT_EQ(this->attached().moving, std::vector<int>()) << "all above 0";
+  this->Filter->AddMaskLabel(3);
+  EXPECT_EQ(this->attached().moving, std::vector<int>{ 3 });
+  this->Filter->SetInputDataObject(3, nullptr);
+  EXPECT_EQ(this->attached().moving, std::vector<int>{ 3 }) << "of the mask alone";
+  this->Filter->SetInputDataObject(3, labelsOn(obliqueLabels()));
+  EXPECT_FALSE(this->attached().moving) << "the mask is another image";
+}
+
 TEST_F(SegmentedFilter, ReadsNoLabelForAStroke)
 {
   // ParaView asks each output for the range of all its arrays.

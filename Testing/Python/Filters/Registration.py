@@ -5,7 +5,7 @@ import warnings
 
 import numpy
 from brainshift_testing import (
-    assert_says, load_plugin, messages, run_tests, scratch, volume)
+    assert_says, data, load_plugin, messages, output, run_tests, scratch, volume, voxels)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -385,6 +385,42 @@ def test_little_overlap_is_warned_of():
     assert 0.0 < found.compared < 0.25, found.compared
     expected = f"Only {100 * found.compared:.0f} % of the volume has a partner"
     assert any(expected in str(one.message) for one in said), [str(one.message) for one in said]
+
+
+def sunk_head(head, mask, strokes):
+    """The head after its brain sank by strokes, as another scanner sees it: fluid is bright, bone
+    is dark and stays where it is, and fluid fills the gap."""
+    sunk, brain = (
+        voxels(simple.BakeDeformation(Input=simple.FreeFormDeformation(
+            Input=source, Strokes=strokes))) for source in (head, mask))
+    before, was = voxels(head), voxels(mask)
+    fraction = brain / was.max()
+    near = fraction + (was > 0) > 0
+    seen = numpy.where(near, fraction * sunk + (1 - fraction) * 60.0, before)
+    bright = numpy.interp(seen, (0, 40, 60, 150, 250, 330, 500), (0, 60, 255, 190, 150, 110, 90))
+    noise = numpy.random.default_rng(6).normal(0.0, 6.0, seen.shape)
+    scan = numpy.where(near, bright, 0.3 * before) + noise
+    image = output(head)
+    return volume(scan.astype(numpy.float32), image.GetOrigin(), image.GetSpacing(),
+                  [image.GetDirectionMatrix().GetElement(i, j) for i in range(3) for j in range(3)])
+
+
+def test_bone_does_not_hold_a_brain_that_sank():
+    head, mask = (simple.OpenDataFile(data("seg3d-utah", f"seg3d_{name}.nii.gz"))
+                  for name in ("mr_t1", "brainmask"))
+    strokes = brainshift.soft((-340.0, 30.0, 520.0), (2.0, 1.0, -8.5), 45.0)
+    truth = simple.FreeFormDeformation(Input=head, Strokes=strokes)
+    reference = sunk_head(head, mask, strokes)
+    bent = simple.FreeFormDeformation(Input=head, Mask=mask)
+    points = numpy.random.default_rng(7).uniform((-370, 0, 490), (-310, 60, 525), (20000, 3))
+    inside = brainshift.images.Labels(output(mask)).fractions(points) > 0.99
+    expected = brainshift.deformed_from_rest(truth, points)
+    moves = inside & (numpy.linalg.norm(expected - points, axis=1) > 4.0)
+    brainshift.refine(bent, reference)
+    off = numpy.linalg.norm(brainshift.deformed_from_rest(bent, points) - expected, axis=1)[moves]
+    print(f"{moves.sum()} places that moved by more than 4 mm: off by {off.mean():.2f} mm in the "
+          f"mean, {off.max():.2f} mm at most", flush=True)
+    assert moves.sum() > 500 and off.mean() < 0.8 and off.max() < 3.0
 
 
 def test_landmarks_judge_a_refinement():
