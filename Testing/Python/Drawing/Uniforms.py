@@ -13,7 +13,7 @@ os.environ["BRAINSHIFT_UNIFORM_LOG"] = LOG
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview.simple import (  # noqa: E402
-    ClearSelection, CompareVolumes, Delete, FreeFormDeformation, PolyPointSource,
+    ClearSelection, CompareVolumes, Delete, FreeFormDeformation, PolyPointSource, Resection,
     SelectSurfaceCells, Show, Sphere)
 from slices_testing import show_slices  # noqa: E402
 from steepness_testing import grid_of_table, table_of  # noqa: E402
@@ -200,6 +200,28 @@ def test_evidence():
         for _ in range(2):
             picture(view)
         Delete(view)
+
+
+def test_resection():
+    labels, hole = (volume((ball(radius=radius) > 50).astype(numpy.uint8)) for radius in (9.0, 3.0))
+    bent = FreeFormDeformation(Input=volume(ball()), Segmentation=labels, Strokes=STROKE)
+    source = Resection(Input=bent, Tumour=labels, Cavity=hole)
+    drawn = Drawn(source)
+    for mode in (COMPOSITE, ISOSURFACE, SLICE):
+        drawn.draw("Half resolution", mode)
+    drawn.draw(None, MAXIMUM)
+    drawn.close()
+    drawn = Drawn(source, STEEP)
+    drawn.draw("On the fly", DrawSegment=1)
+    drawn.close()
+    drawn = Drawn(CompareVolumes(Input=source, Reference=volume(ball(radius=7.0))))
+    drawn.draw("Half resolution")
+    drawn.close()
+    view = view_along((0.3, 0.2, -1), MIDDLE, 90.0, size=40)
+    show_slices(source, view, ("Axial",), MIDDLE)
+    for _ in range(2):
+        picture(view)
+    Delete(view)
 
 
 def test_moving_picture():
