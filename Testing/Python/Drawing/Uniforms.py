@@ -206,10 +206,10 @@ def test_resection():
     labels, hole = (volume((ball(radius=radius) > 50).astype(numpy.uint8)) for radius in (9.0, 3.0))
     bent = FreeFormDeformation(Input=volume(ball()), Segmentation=labels, Strokes=STROKE)
     source = Resection(Input=bent, Tumour=labels, Cavity=hole)
-    drawn = Drawn(source)
+    drawn = Drawn(source, first=MINIMUM)  # which is not cut, and each program is looked at once
+    drawn.draw(None, MAXIMUM)
     for mode in (COMPOSITE, ISOSURFACE, SLICE):
         drawn.draw("Half resolution", mode)
-    drawn.draw(None, MAXIMUM)
     drawn.close()
     drawn = Drawn(source, STEEP)
     drawn.draw("On the fly", DrawSegment=1)
