@@ -557,6 +557,8 @@ class Case(Steps, Moments, Resections):
 
         view = view or simple.GetActiveViewOrCreate("RenderView")
         self.hide_other_moments(view)
+        if self.part("resected") is not None:  # which shows the same volume
+            simple.Hide(self.part("resected"), view)
         return self._shown(self.bent, view, look)
 
     @staticmethod

@@ -224,7 +224,7 @@ def _look_first(case, anew=False):
     from paraview import simple
 
     view = simple.GetActiveViewOrCreate("RenderView")
-    if anew or not _is_shown(case.bent, view):
+    if anew or not any(_is_shown(case.part(part), view) for part in ("bent", "resected")):
         case.show(view)
     case.hide_other_moments(view)
     simple.SetActiveSource(case.bent)
@@ -254,7 +254,7 @@ def _look(case):
 
 
 def _is_shown(source, view):
-    return any(getattr(shown, "Input", None) == source and shown.Visibility
+    return source is not None and any(getattr(shown, "Input", None) == source and shown.Visibility
                for shown in view.Representations)
 
 

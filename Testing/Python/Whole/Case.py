@@ -261,6 +261,8 @@ def test_pictures_of_the_resection_follow_the_roles():
     assert (source.Input, source.Tumour, source.Cavity) == (case.bent, case.tumour, case.cavity)
     assert [shown.Input for shown in view.Representations if shown.Visibility] == [source]
     assert servermanager.Fetch(source).GetFieldData().HasArray("RemovedVoxels")
+    case.show(view)
+    assert [shown.Input for shown in view.Representations if shown.Visibility] == [case.bent]
     case.cavity_labels, case.tumour_labels = [1], [1]
     assert list(source.CavityLabels) == [1] and list(source.TumourLabels) == [1]
     case.reference = path("sub-1_postop.nii.gz")
