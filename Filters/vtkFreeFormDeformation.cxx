@@ -42,6 +42,7 @@ struct vtkFreeFormDeformation::State
   vtkNew<vtkDoubleArray> StrokeShares;
   vtkNew<vtkDoubleArray> StrokeReaches;
   SegmentationSource Segmentations;
+  SegmentationSource Masks{ MaskLabelsName };
   Segmentation LastSegmentation;
   StrokeMarker Marker;
   StrokeMarks LastMarks;
@@ -210,9 +211,15 @@ void vtkFreeFormDeformation::Bend(
   Segmentation segmentation = state.Segmentations.find(segments ? segments : maskImage, volumeGrid);
   this->ReplayStrokes(start, strokes);
   segmentation.chosen = segments ? std::vector<int>() : this->ChosenLabels();
-  if (maskImage && (!segments || segments == maskImage))
+  if (maskImage)
   {
     segmentation.moving = this->ChosenLabels();
+  }
+  if (maskImage && segments && segments != maskImage)
+  {
+    const Segmentation mask = state.Masks.find(maskImage, volumeGrid);
+    segmentation.mask = mask.labels;
+    segmentation.maskGrid = mask.grid;
   }
   state.LastSegmentation = segmentation;
   Lattice result = state.StrokeReplay.result();

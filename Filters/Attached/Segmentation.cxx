@@ -12,6 +12,7 @@ namespace brainshift
 {
 namespace
 {
+constexpr const char* MaskGridName = "FFDMaskGrid";
 constexpr const char* GridName = "FFDSegmentationGrid";
 constexpr const char* ChosenName = "FFDSegmentationLabels";
 constexpr const char* MovingName = "FFDSegmentationMoving";
@@ -41,7 +42,8 @@ std::vector<int> labelsIn(vtkDataArray* array)
 void attachSegmentation(vtkDataObject* volume, const Segmentation& segmentation)
 {
   vtkFieldData* fields = volume->GetFieldData();
-  for (const char* name : { SegmentationName, GridName, ChosenName, MovingName })
+  for (const char* name : { SegmentationName, GridName, ChosenName, MovingName, MaskLabelsName,
+         MaskGridName })
   {
     fields->RemoveArray(name);
   }
@@ -63,6 +65,11 @@ void attachSegmentation(vtkDataObject* volume, const Segmentation& segmentation)
     counted.insert(counted.end(), segmentation.moving->begin(), segmentation.moving->end());
     fields->AddArray(arrayOf(MovingName, counted));
   }
+  if (segmentation.mask)
+  {
+    fields->AddArray(segmentation.mask);
+    attachGrid(fields, MaskGridName, segmentation.maskGrid);
+  }
 }
 
 Segmentation readSegmentation(vtkDataObject* volume)
@@ -82,12 +89,32 @@ Segmentation readSegmentation(vtkDataObject* volume)
   {
     segmentation.moving.emplace(moving.begin() + 1, moving.end());
   }
+  segmentation.mask = fields->GetArray(MaskLabelsName);
+  if (segmentation.mask &&
+    (!readGrid(fields, MaskGridName, segmentation.maskGrid) ||
+      segmentation.mask->GetNumberOfValues() !=
+        static_cast<vtkIdType>(segmentation.maskGrid.count())))
+  {
+    segmentation.mask = nullptr;
+    segmentation.moving.reset();
+  }
   return segmentation;
 }
 
 Mask segmentOf(const Segmentation& segmentation, const std::vector<int>& labels)
 {
   return { segmentation.grid, insideOf(segmentation.labels, labels) };
+}
+
+Mask movingTissue(const Segmentation& segmentation)
+{
+  if (!segmentation.labels || !segmentation.moving)
+  {
+    return {};
+  }
+  const std::vector<int>& labels = *segmentation.moving;
+  return segmentation.mask ? Mask{ segmentation.maskGrid, insideOf(segmentation.mask, labels) }
+                           : segmentOf(segmentation, labels);
 }
 
 Segmentation SegmentationSource::find(vtkImageData* image, const Grid& volume)
@@ -103,7 +130,7 @@ Segmentation SegmentationSource::find(vtkImageData* image, const Grid& volume)
   {
     this->Source = found.labels;
     this->SourceTime = found.labels->GetMTime();
-    this->Labels = sharedAs(SegmentationName, found.labels);
+    this->Labels = sharedAs(this->Name, found.labels);
   }
   segmentation.labels = this->Labels;
   segmentation.grid = found.grid;

@@ -9,8 +9,9 @@
 ///     FFDSegmentationLabels  int: the labels that are drawn if the user chooses none; absent: all
 ///                            above 0
 ///     FFDSegmentationMoving  int: how many labels, and then the labels of the tissue that may
-///                            move, 0 labels: all above 0. Only where the mask of the deformation
-///                            is these labels
+///                            move, 0 labels: all above 0. Only with a mask
+///     FFDMask, FFDMaskGrid   as the first two: the labels of the mask. Only where it is another
+///                            image
 ///     FFDSegmentationValues  ... Names, ... Colors: as LabelTable.h says, where the labels have
 ///                            names
 #ifndef BrainShift_Segmentation_h
@@ -33,6 +34,9 @@ namespace brainshift
 /** Name of the field array of the labels. */
 constexpr const char* SegmentationName = "FFDSegmentation";
 
+/** Name of the field array of the mask's labels, where they are others. */
+constexpr const char* MaskLabelsName = "FFDMask";
+
 /** First word of the arrays that name the labels: see LabelTable.h. */
 constexpr const char* SegmentationLabels = SegmentationName;
 
@@ -42,8 +46,9 @@ struct Segmentation
   vtkSmartPointer<vtkDataArray> labels;   ///< null: none
   Grid grid;                              ///< of the labels
   std::vector<int> chosen;                ///< drawn if the user chooses none; empty: all above 0
-  std::optional<std::vector<int>> moving; ///< those of the mask, if it is these labels; empty: all
-                                          ///< above 0
+  std::optional<std::vector<int>> moving; ///< those of the mask, if there is one; empty: all above 0
+  vtkSmartPointer<vtkDataArray> mask;     ///< labels of the mask; null: it has those above
+  Grid maskGrid;                          ///< of the mask
   std::vector<Label> names;               ///< of labels that have one; readSegmentation leaves it
 };
 
@@ -63,6 +68,9 @@ VTKBRAINSHIFTFILTERS_EXPORT Segmentation readSegmentation(vtkDataObject* volume)
 VTKBRAINSHIFTFILTERS_EXPORT Mask segmentOf(
   const Segmentation& segmentation, const std::vector<int>& labels);
 
+/** The voxels of the tissue that may move, as the mask has them; without a mask, none. */
+VTKBRAINSHIFTFILTERS_EXPORT Mask movingTissue(const Segmentation& segmentation);
+
 /**
  * Reads a segmentation from an image. It hands out the same array object as long as the numbers
  * stay, so that what draws the segmentation knows it again.
@@ -70,6 +78,12 @@ VTKBRAINSHIFTFILTERS_EXPORT Mask segmentOf(
 class VTKBRAINSHIFTFILTERS_EXPORT SegmentationSource
 {
 public:
+  /** @param name   of the array that it hands out */
+  explicit SegmentationSource(const char* name = SegmentationName)
+    : Name(name)
+  {
+  }
+
   /**
    * Finds the labels; null without an image. Throws a Problem if the image cannot be a segmentation
    * of the volume.
@@ -77,6 +91,7 @@ public:
   Segmentation find(vtkImageData* image, const Grid& volume);
 
 private:
+  const char* Name;
   vtkSmartPointer<vtkDataArray> Source; // the last image's
   unsigned long long SourceTime = 0;
   vtkSmartPointer<vtkDataArray> Labels; // the same numbers under the name they are attached by

@@ -21,6 +21,13 @@ Refinement::Refinement(
   this->State.setStiffness(this->Region.stiffness());
 }
 
+void Refinement::beginAt(const Lattice& lattice, const Controls& motion)
+{
+  this->State.moveTo(lattice);
+  this->State.moveTo(this->State.candidateAt(motion, 1.0).lattice);
+  this->BeganElsewhere = true;
+}
+
 const RefinementProgress& Refinement::step()
 {
   if (this->State.progress.isFinished)
@@ -85,7 +92,7 @@ void Refinement::beginLevel()
   this->Step = makeStep(this->Settings.plan, this->level(), this->Level->grid());
   this->LastUsed = this->Index;
   this->State.beginLevel(std::move(*this->Here), *this->AtStart);
-  if (!this->level().isRigid)
+  if (!this->level().isRigid && !this->BeganElsewhere)
   {
     this->State.returnIfWorse(*this->AtStart);
   }

@@ -28,6 +28,12 @@ public:
   Refinement(RegisteredPair pair, const Lattice& start, const RefinementSettings& settings);
 
   /**
+   * Begins at another lattice, moved by a step of the control points as far as the fold guard allows
+   * it; before the first call of step(). The change until there has no stiffness.
+   */
+  void beginAt(const Lattice& lattice, const Controls& motion);
+
+  /**
    * Tries one length of a step, or prepares a part of the next level, which takes about as long. A
    * step is taken once one of its lengths succeeds. Nothing once it is finished.
    */
@@ -64,6 +70,7 @@ private:
   int Index = 0;    // of the level
   int LastUsed = 0; // the last level that was not left out
   int StepsOfLevel = 0;
+  bool BeganElsewhere = false; // what matches worse than the start may still lead to a better match
   std::unique_ptr<PyramidLevel> Level;
   std::unique_ptr<CostAndForces> AtStart; // on this level
   std::unique_ptr<CostAndForces> Here;    // where the level would begin

@@ -139,6 +139,13 @@ void RefinementState::moveTo(const RigidPosition& position)
   this->bent = this->latticeOf(position.controls);
 }
 
+void RefinementState::moveTo(const Lattice& lattice)
+{
+  this->bent = lattice;
+  this->controls = controlsOf(lattice);
+  this->unbent = this->controls;
+}
+
 RigidPosition RefinementState::startNear(
   const glm::dvec3& middle, int number, double farthest) const
 {

@@ -89,6 +89,9 @@ struct RefinementState
 
   void moveTo(const RigidPosition& position);
 
+  /** Moves to another lattice, as if the volume had been bent so at the start. */
+  void moveTo(const Lattice& lattice);
+
   /**
    * The start, moved rigidly about a position (mm, world) by up to `farthest` mm and degrees.
    * Number 0 is the start itself; others are random, the same for the same number.

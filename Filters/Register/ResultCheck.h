@@ -14,6 +14,7 @@
 #include "Filters/Register/PyramidLevel.h"
 
 #include <memory>
+#include <utility>
 
 namespace brainshift
 {
@@ -49,6 +50,9 @@ public:
   double done() const { return static_cast<double>(this->Run) / Runs; } ///< fraction, 0 to 1
 
   const RegisteredPair& pair() const { return this->Pair; }
+
+  /** Hands the volumes back, once nothing needs them. */
+  RegisteredPair takePair() { return std::move(this->Pair); }
 
 private:
   static constexpr int HalfRuns = 6;  // two for each axis

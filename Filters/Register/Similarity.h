@@ -203,6 +203,7 @@ struct CheckPlan
   double rivalGain = 0.0;
   double halvesMm = 3.0; ///< mean distance of two halves
   double otherMm = 1.0;  ///< mean distance by which the other metric moves the result
+  bool hasBlocks = true; ///< whether parts of the volume may not belong elsewhere (BlockCheck.h)
 };
 
 /** The levels and factors of a refinement. */

@@ -28,6 +28,14 @@ std::string inMm(double mm)
   return roundedText(mm) + " mm";
 }
 
+std::string textOf(const Elsewhere& blocks, const std::string& verb)
+{
+  const glm::dvec3& at = blocks.middle;
+  return roundedText(blocks.ml) + " ml of tissue around " + roundedText(at.x) + " " +
+    roundedText(at.y) + " " + roundedText(at.z) + " mm " + verb + " better elsewhere, " +
+    inMm(blocks.mm) + " away on average";
+}
+
 double timesLimit(const std::optional<double>& figure, double limit)
 {
   return figure ? *figure / limit : 0.0;
@@ -112,6 +120,21 @@ std::string insideReason(const std::optional<double>& gain, double besideMm)
     roundedText(100.0 * LeastGainInside) + " percent less. The tissue may be another one.";
 }
 
+std::string elsewhereReason(const Elsewhere& blocks)
+{
+  return blocks.ml > 0.0 ? textOf(blocks, "match") +
+      ". Bend the volume there by hand, or give the deformation a mask of the tissue that moves, and "
+      "refine again."
+                         : std::string();
+}
+
+std::string broughtReason(const Elsewhere& blocks)
+{
+  return textOf(blocks, "matched") +
+    ", so the refinement went on from there. Look at the result. A mask of the tissue that moves "
+    "makes it more exact.";
+}
+
 Verification::Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan)
   : Check(std::move(pair), result, plan)
   , Limits(plan.check)
@@ -141,8 +164,27 @@ bool Verification::finishInside()
     const bool isSecond = this->Found.trust == Trust::Doubtful; // of two checks that found a fault
     this->Found.lower(isSecond ? Trust::Failed : Trust::Doubtful, reason);
   }
-  this->Search = std::make_unique<OrientationSearch>(this->Check.pair(), this->Result);
+  if (this->Limits.hasBlocks)
+  {
+    this->Blocks = std::make_unique<BlockCheck>(this->Check.pair(), this->Result);
+  }
   return true;
+}
+
+void Verification::finishBlocks()
+{
+  const std::string reason = elsewhereReason(this->elsewhere());
+  if (!reason.empty())
+  {
+    const bool isSecond = this->Found.trust == Trust::Doubtful;
+    this->Found.lower(isSecond ? Trust::Failed : Trust::Doubtful, reason);
+  }
+  this->Search = std::make_unique<OrientationSearch>(this->Check.pair(), this->Result);
+}
+
+Controls Verification::motionOfBlocks() const
+{
+  return this->Blocks ? this->Blocks->motion() : Controls(this->Result.grid.count());
 }
 
 void Verification::finishSearch()
@@ -166,9 +208,23 @@ bool Verification::step()
   {
     return this->Check.step() || this->finishCheck();
   }
+  if (this->Inside->step())
+  {
+    return true;
+  }
+  if (!this->HasInside)
+  {
+    this->HasInside = this->finishInside();
+    return true;
+  }
+  if (this->Blocks && this->Blocks->step())
+  {
+    return true;
+  }
   if (!this->Search)
   {
-    return this->Inside->step() || this->finishInside();
+    this->finishBlocks();
+    return true;
   }
   if (this->Search->step())
   {
@@ -181,7 +237,11 @@ bool Verification::step()
 double Verification::done() const
 {
   constexpr double OfCheck = 0.5;
+  constexpr double OfBlocks = 0.2;
+  const double blocks = this->Search ? 1.0 : (this->Blocks ? this->Blocks->done() : 0.0);
   const double searched = this->Search ? this->Search->done() : 0.0;
-  return this->IsFinished ? 1.0 : OfCheck * this->Check.done() + (1.0 - OfCheck) * searched;
+  return this->IsFinished ? 1.0
+                          : OfCheck * this->Check.done() + OfBlocks * blocks +
+      (1.0 - OfCheck - OfBlocks) * searched;
 }
 }

@@ -7,6 +7,7 @@
 #ifndef BrainShift_Trust_h
 #define BrainShift_Trust_h
 
+#include "Filters/Register/BlockCheck.h"
 #include "Filters/Register/InsideCheck.h"
 #include "Filters/Register/Orientations.h"
 #include "Filters/Register/ResultCheck.h"
@@ -55,6 +56,12 @@ BRAINSHIFT_DEFORMATION_EXPORT std::string insideReason(
 BRAINSHIFT_DEFORMATION_EXPORT std::string orientationReason(
   const Orientation& asItIs, const Orientation& other, const glm::dmat3& axes);
 
+/** Which blocks belong elsewhere: a sentence. Empty if there are none. */
+BRAINSHIFT_DEFORMATION_EXPORT std::string elsewhereReason(const Elsewhere& blocks);
+
+/** Which blocks did, before the refinement went on from where they belong: a sentence. */
+BRAINSHIFT_DEFORMATION_EXPORT std::string broughtReason(const Elsewhere& blocks);
+
 /** All checks of a result, a part of them for each call. */
 class BRAINSHIFT_DEFORMATION_EXPORT Verification
 {
@@ -63,8 +70,8 @@ public:
    * @param pair     both volumes, the reference in its position
    * @param result   the deformation, over the volume's box
    * @param plan     with the metrics and limits of the check. The tissue within the outline
-   *                 is not compared, and orientations are not tried, if the reference is
-   *                 ultrasound: a fan has too little in common with a head.
+   *                 is not compared, blocks are not searched for, and orientations are not tried,
+   *                 if the reference is ultrasound: a fan has too little in common with a head.
    */
   Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan);
 
@@ -78,10 +85,18 @@ public:
   /** Once it is finished. */
   const Verdict& verdict() const { return this->Found; }
   const CheckFigures& figures() const { return this->Check.figures(); }
+  Elsewhere elsewhere() const { return this->Blocks ? this->Blocks->elsewhere() : Elsewhere(); }
+
+  /** The motion of each control point that takes blocks where they match; see BlockCheck. */
+  Controls motionOfBlocks() const;
+
+  /** Hands the volumes back, once it is finished. */
+  RegisteredPair takePair() { return this->Check.takePair(); }
 
 private:
   bool finishCheck();
   bool finishInside();
+  void finishBlocks();
   void finishSearch();
 
   ResultCheck Check;
@@ -89,6 +104,8 @@ private:
   bool IsOfHeads; // the reference is no ultrasound
   Lattice Result;
   std::unique_ptr<InsideCheck> Inside;
+  std::unique_ptr<BlockCheck> Blocks;
+  bool HasInside = false; // its verdict
   std::unique_ptr<OrientationSearch> Search;
   bool IsFinished = false;
   Verdict Found;

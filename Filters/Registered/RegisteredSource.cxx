@@ -105,9 +105,9 @@ Mask maskOf(const Lattice& lattice)
 void compareMovingTissue(vtkImageData* image, RegisteredPair& pair)
 {
   const Segmentation segmentation = readSegmentation(image);
-  if (segmentation.labels && segmentation.moving && !pair.inside.inside.empty())
+  Mask moving = movingTissue(segmentation);
+  if (!moving.inside.empty() && !pair.inside.inside.empty())
   {
-    Mask moving = segmentOf(segmentation, *segmentation.moving);
     requireHostMemory(
       "Growing a mask of " + sizeText(glm::dvec3(moving.grid.dimensions)) + " voxels",
       MaskGrowthBytes * static_cast<double>(moving.grid.count()));

@@ -35,7 +35,17 @@ struct vtkRegistrationRun::Running
   Lattice Bent;        // the deformation of an alignment
   std::unique_ptr<Verification> Checks;
 
+  // The best result so far, while the refinement goes on from it because parts belong elsewhere.
+  Lattice From; // where a refinement begins
+  RefinementSettings Settings;
+  std::unique_ptr<Refinement> Best;
+  std::unique_ptr<Verification> BestChecks;
+  int Rounds = 0;
+  Elsewhere AtFirst; // of the first result
+  Elsewhere Brought; // the same, if a later result is kept
+
   void BeginChecks();
+  void FinishChecks();
   bool IsFinished() const;
   double Done() const;
 };
@@ -48,6 +58,8 @@ namespace
 // then moves a little farther than that of the reference.
 constexpr double FarthestShiftMm = 24.0;
 constexpr double FarthestDegrees = 17.0;
+
+constexpr int MostRounds = 2; // that go on from where parts belong
 
 constexpr double RegistrationPart = 0.8; // of the progress; the rest are the checks
 
@@ -87,6 +99,41 @@ void vtkRegistrationRun::Running::BeginChecks()
     grid->direction = motion.rotation * grid->direction;
   }
   this->Checks = std::make_unique<Verification>(std::move(this->Pair), this->Bent, this->Plan);
+}
+
+// Parts of the volume that belong elsewhere are brought there, and the refinement goes on from that.
+// The result of which the least belongs elsewhere is kept.
+void vtkRegistrationRun::Running::FinishChecks()
+{
+  if (!this->Elastic || this->Rounds > MostRounds)
+  {
+    return;
+  }
+  const Elsewhere found = this->Checks->elsewhere();
+  if (this->Best && found.ml >= this->BestChecks->elsewhere().ml)
+  {
+    this->Elastic = std::move(this->Best);
+    this->Checks = std::move(this->BestChecks);
+    this->Rounds = MostRounds + 1;
+    return;
+  }
+  if (this->Rounds > 0)
+  {
+    this->Brought = this->AtFirst;
+  }
+  else
+  {
+    this->AtFirst = found;
+  }
+  ++this->Rounds;
+  if (found.ml > 0.0 && this->Rounds <= MostRounds)
+  {
+    this->Best = std::move(this->Elastic);
+    this->BestChecks = std::move(this->Checks);
+    this->Elastic =
+      std::make_unique<Refinement>(this->BestChecks->takePair(), this->From, this->Settings);
+    this->Elastic->beginAt(this->Best->lattice(), this->BestChecks->motionOfBlocks());
+  }
 }
 
 bool vtkRegistrationRun::Running::IsFinished() const
@@ -183,6 +230,8 @@ void vtkRegistrationRun::Begin(bool bends)
       Refinement::bytes(grids.rest, grids.reference, start.grid, settings));
     settings.samples = source.bent->samples;
     this->Internal->Start = start.displacements;
+    this->Internal->From = start;
+    this->Internal->Settings = settings;
     this->Internal->Elastic = std::make_unique<Refinement>(std::move(source.pair), start, settings);
     return;
   }
@@ -190,6 +239,7 @@ void vtkRegistrationRun::Begin(bool bends)
   this->Internal->Plan = similarities().front().plan;
   this->Internal->Plan.check.halvesMm = AlignHalvesMm;
   this->Internal->Plan.check.otherMm = AlignOtherMm;
+  this->Internal->Plan.check.hasBlocks = false; // tissue may be bent
   this->Internal->Bent = source.bent
     ? effectiveLattice(*source.bent)
     : makeLattice(withDimensions(grids.rest, glm::ivec3(StillSides)), KernelCatmullRom);
@@ -238,7 +288,10 @@ void vtkRegistrationRun::Advance()
   Running& run = *this->Internal;
   if (run.Checks)
   {
-    run.Checks->step();
+    if (!run.Checks->step())
+    {
+      run.FinishChecks();
+    }
     return;
   }
   if (run.Rigid)
@@ -293,6 +346,10 @@ void vtkRegistrationRun::Report()
 void vtkRegistrationRun::ReportChecks()
 {
   Verdict verdict = this->Internal->Checks->verdict();
+  if (this->Internal->Brought.ml > 0.0 && verdict.trust != brainshift::Trust::Unchecked)
+  {
+    verdict.lower(brainshift::Trust::Doubtful, broughtReason(this->Internal->Brought));
+  }
   std::string reasons;
   for (const std::string& reason : verdict.reasons)
   {

@@ -127,8 +127,16 @@ TEST_F(SegmentedFilter, SaysWhichLabelsMayMove)
   EXPECT_EQ(this->attached().moving, std::vector<int>{ 3 });
   this->Filter->SetInputDataObject(3, nullptr);
   EXPECT_EQ(this->attached().moving, std::vector<int>{ 3 }) << "of the mask alone";
+  EXPECT_EQ(this->attached().mask, nullptr);
+  const Mask alone = movingTissue(this->attached());
   this->Filter->SetInputDataObject(3, labelsOn(obliqueLabels()));
-  EXPECT_FALSE(this->attached().moving) << "the mask is another image";
+  EXPECT_EQ(this->attached().moving, std::vector<int>{ 3 }) << "the mask is another image";
+  EXPECT_EQ(this->attached().maskGrid.dimensions, VolumeGrid.dimensions);
+  const Mask beside = movingTissue(this->attached());
+  EXPECT_EQ(beside.inside, alone.inside);
+  EXPECT_GT(std::count(alone.inside.begin(), alone.inside.end(), 1), 0);
+  this->Filter->SetInputDataObject(2, nullptr);
+  EXPECT_TRUE(movingTissue(this->attached()).inside.empty());
 }
 
 TEST_F(SegmentedFilter, ReadsNoLabelForAStroke)

@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Register/BlockCheck.h"
+
+#include "Filters/Register/Similarities/SelfSimilarity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double SpacingMm = 2.0;
+constexpr int BlockPoints = 6;    // along each axis
+constexpr int BlockSteps = 4;     // points from a block to the next: they overlap
+constexpr int FarthestPoints = 6; // of a shift, along each axis
+
+// Enough tissue: of the points of a block, and of those a partner in the reference.
+constexpr double LeastTissue = 0.7;
+constexpr double LeastPartners = 0.75;
+
+// A block matches much better elsewhere if it costs more here than so much of what it costs at
+// positions far off, and elsewhere less than so much of that.
+constexpr float LeastHere = 0.3f;
+constexpr float MostThere = 0.75f;
+constexpr double MostSearched = 0.0625; // of the blocks, those that match worst
+constexpr double FewSearched = 100.0;   // blocks: never fewer
+constexpr int LeastFar = 3;             // positions far off
+
+constexpr double Agreeing = 2.25;      // points: shifts of blocks side by side differ by less
+constexpr std::size_t LeastBlocks = 8; // side by side, that agree
+constexpr double MotionWidthMm = 10.0; // standard deviation of the weights of a mean
+
+constexpr double BorderMm = SpacingMm; // of a volume, where smoothing reads what is beyond
+
+constexpr int PartsBefore = 4; // of the work, before blocks are compared
+
+template <typename Visit>
+void forEachIndex(const glm::ivec3& first, const glm::ivec3& last, const Visit& visit)
+{
+  glm::ivec3 at;
+  for (at.z = first.z; at.z <= last.z; ++at.z)
+  {
+    for (at.y = first.y; at.y <= last.y; ++at.y)
+    {
+      for (at.x = first.x; at.x <= last.x; ++at.x)
+      {
+        visit(static_cast<const glm::ivec3&>(at));
+      }
+    }
+  }
+}
+
+bool isWithin(const glm::ivec3& at, const glm::ivec3& sides)
+{
+  return glm::all(glm::greaterThanEqual(at, glm::ivec3(0))) && glm::all(glm::lessThan(at, sides));
+}
+
+std::size_t numberOf(const glm::ivec3& at, const glm::ivec3& sides)
+{
+  return (static_cast<std::size_t>(at.z) * sides.y + at.y) * sides.x + at.x;
+}
+
+glm::ivec3 indexOf(std::size_t number, const glm::ivec3& sides)
+{
+  const int row = static_cast<int>(number) / sides.x;
+  return { static_cast<int>(number) % sides.x, row % sides.y, row / sides.y };
+}
+
+// The grid without its points near the border, but for two along each axis.
+Grid without(Grid grid, double borderMm)
+{
+  const glm::ivec3 points = glm::min(
+    glm::ivec3(glm::ceil(borderMm / grid.spacing)), (grid.dimensions - 2) / 2);
+  grid.origin = grid.worldFromGrid(points);
+  grid.dimensions -= 2 * points;
+  return grid;
+}
+
+float differenceOf(const float* a, const float* b)
+{
+  float sum = 0.0f;
+  for (int i = 0; i < SelfSimilarityNumbers; ++i)
+  {
+    sum += (a[i] - b[i]) * (a[i] - b[i]);
+  }
+  return sum;
+}
+}
+
+BlockCheck::BlockCheck(const RegisteredPair& pair, const Lattice& result)
+  : Pair(pair)
+  , Result(result)
+{
+}
+
+void BlockCheck::read()
+{
+  const Grid grid = coarseGrid(this->Pair.rest.grid, SpacingMm);
+  this->Rest = sampled(this->Pair.rest, SpacingMm, grid);
+  this->Reference = sampled(this->Pair.reference, SpacingMm, grid);
+  // The end of a volume is no edge of tissue.
+  const Grid restPart = without(this->Pair.rest.grid, BorderMm);
+  const Grid referencePart = without(this->Pair.reference.grid, BorderMm);
+  this->RestWeights = weightsOf(
+    grid, { &restPart, nullptr, { orNull(this->Pair.restUnknown) } }, SelfSimilaritySupport);
+  const Volume asked = weightsOf(grid, { nullptr, orNull(this->Pair.inside), {} }, {});
+  for (std::size_t i = 0; i < asked.values.size(); ++i)
+  {
+    this->RestWeights.values[i] *= asked.values[i];
+  }
+  this->ReferenceWeights = weightsOf(grid,
+    { &referencePart, nullptr,
+      { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } },
+    SelfSimilaritySupport);
+}
+
+void BlockCheck::findPlaces()
+{
+  const Grid& grid = this->Rest.grid;
+  const glm::ivec3 last = grid.dimensions - 1;
+  this->Places.resize(grid.count());
+  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    forEachIndex({ 0, 0, begin }, { last.x, last.y, end - 1 }, [&](const glm::ivec3& at) {
+      const std::size_t number = grid.offset(at.x, at.y, at.z);
+      if (this->RestWeights.values[number] > 0.0f)
+      {
+        const glm::dvec3 rest = grid.worldFromGrid(at);
+        const glm::dvec3 now = rest + displacementOfTissue(this->Result, rest);
+        this->Places[number] = glm::ivec3(glm::round(grid.gridFromWorld(now)));
+      }
+    });
+  });
+}
+
+void BlockCheck::layBlocks()
+{
+  this->Sides = glm::max((this->Rest.grid.dimensions - BlockPoints) / BlockSteps + 1, 0);
+  forEachIndex(glm::ivec3(0), this->Sides - 1, [&](const glm::ivec3& at) {
+    Block block;
+    block.first = BlockSteps * at;
+    this->Blocks.push_back(block);
+  });
+}
+
+std::vector<BlockCheck::Tissue> BlockCheck::tissueOf(const Block& block) const
+{
+  const Grid& grid = this->Rest.grid;
+  std::vector<Tissue> tissue;
+  int points = 0;
+  forEachIndex(block.first, block.first + BlockPoints - 1, [&](const glm::ivec3& at) {
+    if ((at.x + at.y + at.z) % 2 == 0) // points side by side say nearly the same
+    {
+      ++points;
+      const std::size_t number = grid.offset(at.x, at.y, at.z);
+      if (this->RestWeights.values[number] > 0.0f)
+      {
+        tissue.push_back({ &this->RestNumbers[number * SelfSimilarityNumbers], this->Places[number] });
+      }
+    }
+  });
+  if (static_cast<double>(tissue.size()) < LeastTissue * points)
+  {
+    tissue.clear();
+  }
+  return tissue;
+}
+
+// The mean over the tissue; absent if too little of it has a partner, or if it is above `most`.
+std::optional<float> BlockCheck::costAt(
+  const std::vector<Tissue>& tissue, const glm::ivec3& shift, float most) const
+{
+  const Grid& grid = this->Rest.grid;
+  const float points = static_cast<float>(tissue.size());
+  const float limit = most * points;
+  float sum = 0.0f;
+  std::size_t compared = 0;
+  for (const Tissue& point : tissue)
+  {
+    const glm::ivec3 to = point.place + shift;
+    if (!isWithin(to, grid.dimensions))
+    {
+      continue;
+    }
+    const std::size_t partner = grid.offset(to.x, to.y, to.z);
+    if (this->ReferenceWeights.values[partner] > 0.0f)
+    {
+      ++compared;
+      sum += differenceOf(point.numbers, &this->ReferenceNumbers[partner * SelfSimilarityNumbers]);
+      if (sum > limit)
+      {
+        return {};
+      }
+    }
+  }
+  const float partners = static_cast<float>(compared);
+  if (partners < LeastPartners * points || sum > most * partners)
+  {
+    return {};
+  }
+  return sum / partners;
+}
+
+// How badly a block matches where it is.
+void BlockCheck::compare(Block& block) const
+{
+  const std::vector<Tissue> tissue = this->tissueOf(block);
+  std::optional<float> here = tissue.empty() ? std::nullopt : this->costAt(tissue, glm::ivec3(0));
+  if (!here)
+  {
+    return;
+  }
+  float far = 0.0f;
+  int positions = 0;
+  forEachIndex(glm::ivec3(-1), glm::ivec3(1), [&](const glm::ivec3& way) {
+    here = this->costAt(tissue, way, *here).value_or(*here);
+    const bool isCorner = way.x * way.y * way.z != 0;
+    const std::optional<float> there =
+      isCorner ? this->costAt(tissue, FarthestPoints * way) : std::nullopt;
+    far += there.value_or(0.0f);
+    positions += there ? 1 : 0;
+  });
+  block.isKnown = positions >= LeastFar && far > 0.0f;
+  block.here = block.isKnown ? *here : 0.0f;
+  block.part = block.isKnown ? *here * static_cast<float>(positions) / far : 0.0f;
+}
+
+void BlockCheck::search(Block& block) const
+{
+  if (!block.isKnown || block.part < this->LeastPart)
+  {
+    return;
+  }
+  const std::vector<Tissue> tissue = this->tissueOf(block);
+  float least = MostThere * block.here;
+  forEachIndex(
+    glm::ivec3(-FarthestPoints), glm::ivec3(FarthestPoints), [&](const glm::ivec3& shift) {
+      const float cost = this->costAt(tissue, shift, least).value_or(least);
+      if (cost < least)
+      {
+        least = cost;
+        block.shift = shift;
+      }
+    });
+  // At the border of the search it may be no minimum at all.
+  block.isCandidate = block.shift != glm::ivec3(0) &&
+    glm::all(glm::lessThan(glm::abs(block.shift), glm::ivec3(FarthestPoints)));
+}
+
+// Where noise makes all blocks match badly, only those that match worse than most are searched.
+void BlockCheck::findLeastPart()
+{
+  std::vector<float> parts;
+  for (const Block& block : this->Blocks)
+  {
+    if (block.isKnown)
+    {
+      parts.push_back(block.part);
+    }
+  }
+  this->LeastPart = LeastHere;
+  const double searched =
+    std::max(FewSearched, MostSearched * static_cast<double>(parts.size()));
+  if (searched < static_cast<double>(parts.size()))
+  {
+    const auto worst = parts.end() - static_cast<std::ptrdiff_t>(searched);
+    std::nth_element(parts.begin(), worst, parts.end());
+    this->LeastPart = std::max(LeastHere, *worst);
+  }
+}
+
+glm::dvec3 BlockCheck::shiftMm(const Block& block) const
+{
+  return this->Rest.grid.spacing * glm::dvec3(block.shift);
+}
+
+glm::dvec3 BlockCheck::middleOf(const Block& block) const
+{
+  return this->Rest.grid.worldFromGrid(
+    glm::dvec3(block.first) + 0.5 * glm::dvec3(BlockPoints - 1));
+}
+
+// The blocks that are connected to one through neighbours with nearly the same shift.
+std::vector<std::size_t> BlockCheck::connectedTo(
+  std::size_t first, std::vector<char>& isSeen) const
+{
+  std::vector<std::size_t> found{ first };
+  isSeen[first] = 1;
+  for (std::size_t next = 0; next < found.size(); ++next)
+  {
+    const glm::ivec3 at = indexOf(found[next], this->Sides);
+    const glm::dvec3 shift(this->Blocks[found[next]].shift);
+    for (int side = 0; side < 6; ++side)
+    {
+      glm::ivec3 beside = at;
+      beside[side / 2] += side % 2 ? 1 : -1;
+      const std::size_t number = numberOf(beside, this->Sides);
+      if (isWithin(beside, this->Sides) && !isSeen[number] && this->Blocks[number].isCandidate &&
+        glm::distance(glm::dvec3(this->Blocks[number].shift), shift) < Agreeing)
+      {
+        isSeen[number] = 1;
+        found.push_back(number);
+      }
+    }
+  }
+  return found;
+}
+
+void BlockCheck::count()
+{
+  std::vector<char> isSeen(this->Blocks.size(), 0);
+  std::size_t counted = 0;
+  for (std::size_t i = 0; i < this->Blocks.size(); ++i)
+  {
+    if (!this->Blocks[i].isCandidate || isSeen[i])
+    {
+      continue;
+    }
+    const std::vector<std::size_t> group = this->connectedTo(i, isSeen);
+    for (std::size_t j = 0; j < group.size() && group.size() >= LeastBlocks; ++j)
+    {
+      Block& block = this->Blocks[group[j]];
+      block.isCounted = true;
+      this->Found.mm += glm::length(this->shiftMm(block));
+      this->Found.middle += this->middleOf(block);
+      ++counted;
+    }
+  }
+  if (counted > 0)
+  {
+    const double blocks = static_cast<double>(counted);
+    constexpr double Mm3ForMl = 1000.0;
+    this->Found.ml =
+      blocks * std::pow(BlockSteps, 3) * pointVolume(this->Rest.grid) / Mm3ForMl;
+    this->Found.mm /= blocks;
+    this->Found.middle /= blocks;
+  }
+}
+
+// A block that is not counted holds its surroundings still as far as it matches where it is.
+double BlockCheck::weightOf(const Block& block) const
+{
+  constexpr double LeastWeight = 0.1;
+  const double match = std::max(LeastWeight, 1.0 - static_cast<double>(block.part / LeastHere));
+  return block.isCounted ? 1.0 : (block.isKnown ? match : 0.0);
+}
+
+Controls BlockCheck::motion() const
+{
+  const Grid& lattice = this->Result.grid;
+  Controls motion(lattice.count(), glm::vec3(0.0f));
+  for (std::size_t i = 0; i < motion.size(); ++i)
+  {
+    const glm::dvec3 control = lattice.worldFromGrid(indexOf(i, lattice.dimensions));
+    glm::dvec3 sum(0.0);
+    double weights = 0.0;
+    for (const Block& block : this->Blocks)
+    {
+      const double away = glm::distance(this->middleOf(block), control) / MotionWidthMm;
+      const double weight = this->weightOf(block) * std::exp(-0.5 * away * away);
+      weights += weight;
+      sum += weight * (block.isCounted ? this->shiftMm(block) : glm::dvec3(0.0));
+    }
+    constexpr double LeastWeight = 1e-6; // else no block is near
+    motion[i] = weights > LeastWeight ? glm::vec3(sum / weights) : glm::vec3(0.0f);
+  }
+  return motion;
+}
+
+// Calls visit(block) for all blocks of a slab.
+template <typename Visit>
+void BlockCheck::visitSlab(int slab, const Visit& visit)
+{
+  const std::int64_t size = static_cast<std::int64_t>(this->Sides.x) * this->Sides.y;
+  constexpr std::int64_t Grain = 4;
+  parallelFor(slab * size, (slab + 1) * size, Grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      visit(this->Blocks[i]);
+    }
+  });
+}
+
+bool BlockCheck::step()
+{
+  const int part = this->Part++;
+  const int slab = part - PartsBefore;
+  if (part == 0)
+  {
+    this->read();
+  }
+  else if (part == 1)
+  {
+    this->RestNumbers = selfSimilarity(this->Rest);
+  }
+  else if (part == 2)
+  {
+    this->ReferenceNumbers = selfSimilarity(this->Reference);
+  }
+  else if (part == 3)
+  {
+    this->findPlaces();
+    this->layBlocks();
+  }
+  else if (slab < this->Sides.z)
+  {
+    this->visitSlab(slab, [this](Block& block) { this->compare(block); });
+  }
+  else if (slab == this->Sides.z)
+  {
+    this->findLeastPart();
+  }
+  else if (slab <= 2 * this->Sides.z)
+  {
+    this->visitSlab(slab - this->Sides.z - 1, [this](Block& block) { this->search(block); });
+  }
+  else
+  {
+    this->Part = this->parts();
+    if (slab == 2 * this->Sides.z + 1)
+    {
+      this->count();
+    }
+    return false;
+  }
+  return true;
+}
+
+int BlockCheck::parts() const
+{
+  return PartsBefore + 2 * this->Sides.z + 2;
+}
+
+double BlockCheck::done() const
+{
+  // The number of slabs is known after the first parts.
+  return this->Blocks.empty() ? 0.0 : static_cast<double>(this->Part) / this->parts();
+}
+}
