@@ -88,7 +88,8 @@ Lattice RefinementState::latticeOf(const Controls& at) const
   return result;
 }
 
-RefinementState::Candidate RefinementState::candidateAt(const Controls& step, double length) const
+RefinementState::Candidate RefinementState::candidateAt(
+  const Controls& step, double length, bool isRigid) const
 {
   Candidate found;
   found.controls = this->controls;
@@ -97,7 +98,9 @@ RefinementState::Candidate RefinementState::candidateAt(const Controls& step, do
     found.controls[i] += static_cast<float>(length) * step[i];
   }
   found.lattice = this->latticeOf(found.controls);
-  found.fraction = this->Guards ? this->Guard.fraction(this->bent, found.lattice) : 1.0;
+  // Of a rigid motion only the edge of a mask can fold.
+  const bool canFold = !isRigid || this->start.mask;
+  found.fraction = this->Guards && canFold ? this->Guard.fraction(this->bent, found.lattice) : 1.0;
   if (found.fraction < 1.0)
   {
     found.lattice = between(this->bent, found.lattice, found.fraction);
@@ -164,8 +167,7 @@ RigidPosition RefinementState::startNear(
     const glm::dvec3 arm = placeOf(grid, i) + glm::dvec3(this->startControls[i]) - about;
     step[i] = glm::vec3(motion.shift + rotation * arm - arm);
   }
-  // Only the edge of a mask can fold.
-  result.controls = this->candidateAt(step, 1.0).controls;
+  result.controls = this->candidateAt(step, 1.0, true).controls;
   result.unbent = result.controls;
   return result;
 }
@@ -355,8 +357,7 @@ StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
   const RigidStep step = rigidStep(state.start.grid, state.controls, state.known.forces);
   const double fraction =
     std::min(this->StepLength, this->LongestMm / std::max(1e-9, step.lengthMm));
-  // Only the edge of a mask can fold.
-  const RefinementState::Candidate candidate = state.candidateAt(step.steps, fraction);
+  const RefinementState::Candidate candidate = state.candidateAt(step.steps, fraction, true);
   CostAndForces compared = level.compare(candidate.controls);
   const double gain = state.known.cost - compared.cost; // the bend costs the same
   // A mean also falls if tissue with a high cost leaves the fan.

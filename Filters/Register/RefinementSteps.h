@@ -110,7 +110,7 @@ struct RefinementState
     Controls controls;
     double fraction = 1.0; // of the step
   };
-  Candidate candidateAt(const Controls& step, double length) const;
+  Candidate candidateAt(const Controls& step, double length, bool isRigid = false) const;
 
   void take(const Lattice& lattice, CostAndForces compared, double energyThere);
 

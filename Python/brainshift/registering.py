@@ -62,9 +62,13 @@ class _Run:
         """
         taken = 0
         stop = False
+        # All of them, with the control points, would take as long as a step.
+        read = [self.proxy.GetProperty(name)
+                for name in ("Problem", "Finished", *result.FIGURES.values())]
         while not stop and not result.finished:
             self.proxy.InvokeCommand("Step")
-            self.proxy.UpdatePropertyInformation()
+            for figure in read:
+                self.proxy.UpdatePropertyInformation(figure)
             if self.figure("Problem"):
                 raise RuntimeError(self.figure("Problem"))
             for name, figure in result.FIGURES.items():
@@ -73,6 +77,7 @@ class _Run:
             # A call may have tried a length of a step only, or prepared a level.
             stop = (callback is not None and result.steps > taken and callback(result) is False)
             taken = result.steps
+        self.proxy.UpdatePropertyInformation()
         result.trust = self.figure("Trust")
         result.warnings = [line for line in self.figure("Warning").split("\n") if line]
         if self.figure("Refusal"):

@@ -525,7 +525,7 @@ CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displace
 namespace
 {
 constexpr LocalFit ByVolume{ SecondTerm::None, 3, 1e-4f, true };
-constexpr LocalFit ByGradients{ SecondTerm::GradientLength, 2 };
+constexpr LocalFit ByGradients{ SecondTerm::GradientLength, 2, 1e-4f, true };
 constexpr LocalFit BySquare{ SecondTerm::Square, 2, 3e-5f, true, 0.005f };
 
 template <const LocalFit& Fit>

@@ -251,11 +251,9 @@ std::vector<float> importanceOf(const LevelVolumes& level)
   return steepness;
 }
 
-// Numbers of neighbouring samples are alike. So a search may take one in so many, those whose three
-// indices are all even or all odd.
-constexpr double SamplesForOne = 4.0;
-
-void thinOut(LevelSamples& samples)
+// Numbers of neighbouring samples are alike. So a comparison may take one in so many: in 4, those whose
+// indices are all even or all odd; in 8, those whose indices are all even.
+void thinOut(LevelSamples& samples, int oneIn)
 {
   const glm::ivec3 sides = samples.rows.samples().dimensions;
   std::size_t number = 0;
@@ -265,16 +263,21 @@ void thinOut(LevelSamples& samples)
     {
       for (int i = 0; i < sides.x; ++i, ++number)
       {
-        samples.weights[number] *= (i - k) % 2 == 0 && (j - k) % 2 == 0 ? 1.0f : 0.0f;
+        const bool isAlike = (i - k) % 2 == 0 && (j - k) % 2 == 0;
+        samples.weights[number] *= isAlike && (oneIn == 4 || k % 2 == 0) ? 1.0f : 0.0f;
       }
     }
   }
   samples.findStretches();
 }
 
+// One in 8 only if so many are left: a few samples tell too little about what leaves a sweep.
+constexpr double LeastOfEighth = 2000.0;
+
 // Mean squared difference of the numbers of both volumes, added up over 12. With two images,
 // samples count by their importance.
-template <int Images, bool IsThin>
+// It takes one sample in OneIn at most.
+template <int Images, int OneIn>
 class SelfSimilarity : public Comparison
 {
 public:
@@ -302,9 +305,10 @@ public:
     else if (!this->Samples)
     {
       this->Samples = std::make_unique<LevelSamples>(this->Level, this->Over);
-      if constexpr (IsThin)
+      if constexpr (OneIn > 1)
       {
-        thinOut(*this->Samples);
+        this->Factor = OneIn == 8 && this->Samples->possible < 8.0 * LeastOfEighth ? 4 : OneIn;
+        thinOut(*this->Samples, this->Factor);
       }
       this->Rest = this->Samples->read(this->Rest, Channels);
       if constexpr (Images == 2)
@@ -323,14 +327,15 @@ public:
 private:
   LevelVolumes Level; // while it is prepared
   Lattice Over;       // the same
+  int Factor = 1;     // points for each sample
   std::unique_ptr<LevelSamples> Samples;
   std::vector<float> Rest;       // at the samples; while it is prepared, at the points
   std::vector<float> Reference;  // at the points
   std::vector<float> Importance; // of the samples; empty: 1 everywhere
 };
 
-template <int Images, bool IsThin>
-CostAndForces SelfSimilarity<Images, IsThin>::compare(const std::vector<glm::vec3>& displacements)
+template <int Images, int OneIn>
+CostAndForces SelfSimilarity<Images, OneIn>::compare(const std::vector<glm::vec3>& displacements)
 {
   const LevelSamples& samples = *this->Samples;
   const Grid& grid = samples.rows.samples();
@@ -360,16 +365,15 @@ CostAndForces SelfSimilarity<Images, IsThin>::compare(const std::vector<glm::vec
     return stretch.first < stretch.last;
   });
   CostAndForces result = averaged(rowSums, rowWeights, std::move(forces));
-  constexpr double PointsOfSample = IsThin ? SamplesForOne : 1.0;
-  result.samples = PointsOfSample * std::accumulate(rowCounts.begin(), rowCounts.end(), 0.0);
-  result.possible = PointsOfSample * samples.possible;
+  result.samples = this->Factor * std::accumulate(rowCounts.begin(), rowCounts.end(), 0.0);
+  result.possible = this->Factor * samples.possible;
   return result;
 }
 
-template <int Images, bool IsThin>
+template <int Images, int OneIn>
 std::unique_ptr<Comparison> made(LevelVolumes level, const Lattice& lattice)
 {
-  return std::make_unique<SelfSimilarity<Images, IsThin>>(std::move(level), lattice);
+  return std::make_unique<SelfSimilarity<Images, OneIn>>(std::move(level), lattice);
 }
 
 const Metric SelfSimilarityMetric = selfSimilarityMetric();
@@ -396,22 +400,22 @@ constexpr Support GradientSupport{ PlainSupport.along + 1, PlainSupport.across +
 
 Metric selfSimilarityMetric()
 {
-  return { PlainSupport, SelfSimilarity<1, false>::BytesPerPoint, &made<1, false> };
+  return { PlainSupport, SelfSimilarity<1, 1>::BytesPerPoint, &made<1, 1> };
 }
 
 Metric thinSelfSimilarity()
 {
-  return { PlainSupport, SelfSimilarity<1, true>::BytesPerPoint, &made<1, true> };
-}
-
-Metric selfSimilarityWithGradients()
-{
-  return { GradientSupport, SelfSimilarity<2, false>::BytesPerPoint, &made<2, false> };
+  return { PlainSupport, SelfSimilarity<1, 4>::BytesPerPoint, &made<1, 4> };
 }
 
 Metric thinSelfSimilarityWithGradients()
 {
-  return { GradientSupport, SelfSimilarity<2, true>::BytesPerPoint, &made<2, true> };
+  return { GradientSupport, SelfSimilarity<2, 4>::BytesPerPoint, &made<2, 4> };
+}
+
+Metric sparseSelfSimilarityWithGradients()
+{
+  return { GradientSupport, SelfSimilarity<2, 8>::BytesPerPoint, &made<2, 8> };
 }
 
 Similarity describeSelfSimilarity()

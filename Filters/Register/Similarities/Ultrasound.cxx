@@ -24,8 +24,8 @@ constexpr double LeastRivalGain = 0.015;
 constexpr double SpacingMm = 1.0;
 constexpr int KeptPositions = 3; // of a search from several starts
 
-const Metric Search = thinSelfSimilarityWithGradients();
-const Metric Whole = selfSimilarityWithGradients();
+const Metric Search = sparseSelfSimilarityWithGradients();
+const Metric Whole = thinSelfSimilarityWithGradients();
 const Metric LC2 = linearFitWithGradients();
 
 // The weighted mean of both costs.
