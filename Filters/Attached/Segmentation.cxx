@@ -42,8 +42,8 @@ std::vector<int> labelsIn(vtkDataArray* array)
 void attachSegmentation(vtkDataObject* volume, const Segmentation& segmentation)
 {
   vtkFieldData* fields = volume->GetFieldData();
-  for (const char* name : { SegmentationName, GridName, ChosenName, MovingName, MaskLabelsName,
-         MaskGridName })
+  for (const char* name :
+    { SegmentationName, GridName, ChosenName, MovingName, MaskLabelsName, MaskGridName })
   {
     fields->RemoveArray(name);
   }

@@ -43,13 +43,14 @@ constexpr const char* SegmentationLabels = SegmentationName;
 /** What the arrays hold. */
 struct Segmentation
 {
-  vtkSmartPointer<vtkDataArray> labels;   ///< null: none
-  Grid grid;                              ///< of the labels
-  std::vector<int> chosen;                ///< drawn if the user chooses none; empty: all above 0
-  std::optional<std::vector<int>> moving; ///< those of the mask, if there is one; empty: all above 0
-  vtkSmartPointer<vtkDataArray> mask;     ///< labels of the mask; null: it has those above
-  Grid maskGrid;                          ///< of the mask
-  std::vector<Label> names;               ///< of labels that have one; readSegmentation leaves it
+  vtkSmartPointer<vtkDataArray> labels; ///< null: none
+  Grid grid;                            ///< of the labels
+  std::vector<int> chosen;              ///< drawn if the user chooses none; empty: all above 0
+  std::optional<std::vector<int>>
+    moving;                           ///< those of the mask, if there is one; empty: all above 0
+  vtkSmartPointer<vtkDataArray> mask; ///< labels of the mask; null: it has those above
+  Grid maskGrid;                      ///< of the mask
+  std::vector<Label> names;           ///< of labels that have one; readSegmentation leaves it
 };
 
 /**

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/BlockCheck.h"
 
-#include "Filters/Register/Similarities/SelfSimilarity.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -70,17 +68,17 @@ glm::ivec3 indexOf(std::size_t number, const glm::ivec3& sides)
 // The grid without its points near the border, but for two along each axis.
 Grid without(Grid grid, double borderMm)
 {
-  const glm::ivec3 points = glm::min(
-    glm::ivec3(glm::ceil(borderMm / grid.spacing)), (grid.dimensions - 2) / 2);
+  const glm::ivec3 points =
+    glm::min(glm::ivec3(glm::ceil(borderMm / grid.spacing)), (grid.dimensions - 2) / 2);
   grid.origin = grid.worldFromGrid(points);
   grid.dimensions -= 2 * points;
   return grid;
 }
 
-float differenceOf(const float* a, const float* b)
+float differenceOf(const float* a, const float* b, int numbers)
 {
   float sum = 0.0f;
-  for (int i = 0; i < SelfSimilarityNumbers; ++i)
+  for (int i = 0; i < numbers; ++i)
   {
     sum += (a[i] - b[i]) * (a[i] - b[i]);
   }
@@ -88,9 +86,10 @@ float differenceOf(const float* a, const float* b)
 }
 }
 
-BlockCheck::BlockCheck(const RegisteredPair& pair, const Lattice& result)
+BlockCheck::BlockCheck(const RegisteredPair& pair, const Lattice& result, const Descriptor& by)
   : Pair(pair)
   , Result(result)
+  , By(by)
 {
 }
 
@@ -102,17 +101,16 @@ void BlockCheck::read()
   // The end of a volume is no edge of tissue.
   const Grid restPart = without(this->Pair.rest.grid, BorderMm);
   const Grid referencePart = without(this->Pair.reference.grid, BorderMm);
-  this->RestWeights = weightsOf(
-    grid, { &restPart, nullptr, { orNull(this->Pair.restUnknown) } }, SelfSimilaritySupport);
+  this->RestWeights =
+    weightsOf(grid, { &restPart, nullptr, { orNull(this->Pair.restUnknown) } }, this->By.support);
   const Volume asked = weightsOf(grid, { nullptr, orNull(this->Pair.inside), {} }, {});
   for (std::size_t i = 0; i < asked.values.size(); ++i)
   {
     this->RestWeights.values[i] *= asked.values[i];
   }
   this->ReferenceWeights = weightsOf(grid,
-    { &referencePart, nullptr,
-      { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } },
-    SelfSimilaritySupport);
+    { &referencePart, nullptr, { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } },
+    this->By.support);
 }
 
 void BlockCheck::findPlaces()
@@ -155,7 +153,7 @@ std::vector<BlockCheck::Tissue> BlockCheck::tissueOf(const Block& block) const
       const std::size_t number = grid.offset(at.x, at.y, at.z);
       if (this->RestWeights.values[number] > 0.0f)
       {
-        tissue.push_back({ &this->RestNumbers[number * SelfSimilarityNumbers], this->Places[number] });
+        tissue.push_back({ &this->RestNumbers[number * this->By.numbers], this->Places[number] });
       }
     }
   });
@@ -186,7 +184,8 @@ std::optional<float> BlockCheck::costAt(
     if (this->ReferenceWeights.values[partner] > 0.0f)
     {
       ++compared;
-      sum += differenceOf(point.numbers, &this->ReferenceNumbers[partner * SelfSimilarityNumbers]);
+      sum += differenceOf(
+        point.numbers, &this->ReferenceNumbers[partner * this->By.numbers], this->By.numbers);
       if (sum > limit)
       {
         return {};
@@ -259,8 +258,7 @@ void BlockCheck::findLeastPart()
     }
   }
   this->LeastPart = LeastHere;
-  const double searched =
-    std::max(FewSearched, MostSearched * static_cast<double>(parts.size()));
+  const double searched = std::max(FewSearched, MostSearched * static_cast<double>(parts.size()));
   if (searched < static_cast<double>(parts.size()))
   {
     const auto worst = parts.end() - static_cast<std::ptrdiff_t>(searched);
@@ -276,13 +274,11 @@ glm::dvec3 BlockCheck::shiftMm(const Block& block) const
 
 glm::dvec3 BlockCheck::middleOf(const Block& block) const
 {
-  return this->Rest.grid.worldFromGrid(
-    glm::dvec3(block.first) + 0.5 * glm::dvec3(BlockPoints - 1));
+  return this->Rest.grid.worldFromGrid(glm::dvec3(block.first) + 0.5 * glm::dvec3(BlockPoints - 1));
 }
 
 // The blocks that are connected to one through neighbours with nearly the same shift.
-std::vector<std::size_t> BlockCheck::connectedTo(
-  std::size_t first, std::vector<char>& isSeen) const
+std::vector<std::size_t> BlockCheck::connectedTo(std::size_t first, std::vector<char>& isSeen) const
 {
   std::vector<std::size_t> found{ first };
   isSeen[first] = 1;
@@ -330,8 +326,7 @@ void BlockCheck::count()
   {
     const double blocks = static_cast<double>(counted);
     constexpr double Mm3ForMl = 1000.0;
-    this->Found.ml =
-      blocks * std::pow(BlockSteps, 3) * pointVolume(this->Rest.grid) / Mm3ForMl;
+    this->Found.ml = blocks * std::pow(BlockSteps, 3) * pointVolume(this->Rest.grid) / Mm3ForMl;
     this->Found.mm /= blocks;
     this->Found.middle /= blocks;
   }
@@ -391,11 +386,11 @@ bool BlockCheck::step()
   }
   else if (part == 1)
   {
-    this->RestNumbers = selfSimilarity(this->Rest);
+    this->RestNumbers = this->By.make(this->Rest);
   }
   else if (part == 2)
   {
-    this->ReferenceNumbers = selfSimilarity(this->Reference);
+    this->ReferenceNumbers = this->By.make(this->Reference);
   }
   else if (part == 3)
   {

@@ -9,13 +9,11 @@
 /// by chance; blocks side by side that match much better at the same shift do not.
 ///
 /// Method: block matching (Ourselin et al., Reconstructing a 3D structure from serial histological
-/// sections, Image and Vision Computing 19, 2001), by self-similarity.
+/// sections, Image and Vision Computing 19, 2001).
 #ifndef BrainShift_BlockCheck_h
 #define BrainShift_BlockCheck_h
 
-#include "Filters/Deformation/Lattice.h"
-#include "Filters/Register/LatticeRows.h"
-#include "Filters/Register/Volume.h"
+#include "Filters/Register/Similarity.h"
 
 #include <limits>
 #include <optional>
@@ -36,8 +34,9 @@ public:
   /**
    * @param pair     both volumes, the reference in its position; lives longer than the check
    * @param result   the deformation, over the volume's box; lives longer than the check
+   * @param by       what blocks are compared by
    */
-  BlockCheck(const RegisteredPair& pair, const Lattice& result);
+  BlockCheck(const RegisteredPair& pair, const Lattice& result, const Descriptor& by);
 
   /** Does a part of the work. False: it is finished. */
   bool step();
@@ -92,6 +91,7 @@ private:
 
   const RegisteredPair& Pair;
   const Lattice& Result;
+  Descriptor By;
   Volume Rest;
   Volume Reference;
   Volume RestWeights;

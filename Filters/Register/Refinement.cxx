@@ -9,6 +9,17 @@ namespace
 {
 // Bytes of a control point: lists of displacements and forces.
 constexpr double BytesPerControl = 40.0 * sizeof(float) * 3.0;
+
+// Of so many positions near the start, the search begins from the one with the least cost.
+constexpr int ComparedForStart = 8;
+
+constexpr double Unknown = -1.0; // cost
+
+void sortByCost(std::vector<RigidPosition>& positions)
+{
+  std::sort(positions.begin(), positions.end(),
+    [](const RigidPosition& a, const RigidPosition& b) { return a.cost < b.cost; });
+}
 }
 
 Refinement::Refinement(
@@ -46,6 +57,10 @@ const RefinementProgress& Refinement::step()
   else if (!this->Step)
   {
     this->beginLevel();
+  }
+  else if (!this->Near.empty())
+  {
+    this->compareNear();
   }
   else
   {
@@ -102,10 +117,28 @@ void Refinement::beginLevel()
 void Refinement::findStarts()
 {
   const int starts = this->level().isRigid ? std::clamp(this->Settings.starts, 1, MostStarts) : 1;
-  for (int number = starts - 1; number > 0; --number)
+  for (int number = 1; number <= ComparedForStart * (starts - 1); ++number)
   {
-    this->Open.push_back(this->State.startNear(this->Region.middle(), number));
+    this->Near.push_back(this->State.startNear(this->Region.middle(), number));
+    this->Near.back().cost = Unknown;
   }
+}
+
+// Compares a position near the start. Once all are compared, the search begins from the best.
+void Refinement::compareNear()
+{
+  const auto next = std::find_if(this->Near.begin(), this->Near.end(),
+    [](const RigidPosition& position) { return position.cost == Unknown; });
+  next->cost = this->Level->compare(next->controls).cost;
+  if (next + 1 != this->Near.end())
+  {
+    return;
+  }
+  sortByCost(this->Near);
+  this->Near.resize(this->Near.size() / ComparedForStart);
+  std::reverse(this->Near.begin(), this->Near.end()); // the last one begins
+  this->Open = std::move(this->Near);
+  this->Near.clear();
 }
 
 void Refinement::begin(const RigidPosition& position)
@@ -173,8 +206,7 @@ void Refinement::finishLevel()
   const std::size_t next = static_cast<std::size_t>(this->Index) + 1;
   if (this->Found.size() > 1)
   {
-    std::sort(this->Found.begin(), this->Found.end(),
-      [](const RigidPosition& a, const RigidPosition& b) { return a.cost < b.cost; });
+    sortByCost(this->Found);
     this->Open.assign(this->Found.begin() + 1,
       this->Found.begin() + std::min<std::size_t>(this->level().kept, this->Found.size()));
     this->begin(this->Found.front());

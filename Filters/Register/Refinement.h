@@ -28,8 +28,8 @@ public:
   Refinement(RegisteredPair pair, const Lattice& start, const RefinementSettings& settings);
 
   /**
-   * Begins at another lattice, moved by a step of the control points as far as the fold guard allows
-   * it; before the first call of step(). The change until there has no stiffness.
+   * Begins at another lattice, moved by a step of the control points as far as the fold guard
+   * allows it; before the first call of step(). The change until there has no stiffness.
    */
   void beginAt(const Lattice& lattice, const Controls& motion);
 
@@ -59,6 +59,7 @@ private:
   void finishPosition();
   void finishLevel();
   void findStarts();
+  void compareNear();
   void begin(const RigidPosition& position);
   void reportOverlap();
   void reportDone();
@@ -74,6 +75,7 @@ private:
   std::unique_ptr<PyramidLevel> Level;
   std::unique_ptr<CostAndForces> AtStart; // on this level
   std::unique_ptr<CostAndForces> Here;    // where the level would begin
+  std::vector<RigidPosition> Near;        // that are still to be compared
   std::vector<RigidPosition> Open;        // from which this level is still to begin
   std::vector<RigidPosition> Found;       // on this level
   std::unique_ptr<RefinementStep> Step;

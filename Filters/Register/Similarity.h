@@ -165,6 +165,15 @@ struct StepGrowth
   double growth = 1.2; ///< after each step that lowers the energy
 };
 
+/** Numbers that tell what is around a point, whatever the contrast. */
+struct Descriptor
+{
+  Support support; ///< neighbourhood that the numbers depend on
+  int numbers = 0; ///< of each point
+  /** The numbers (0 to 1) of each point, interleaved. Null: there is no descriptor. */
+  std::vector<float> (*make)(const Volume& volume) = nullptr;
+};
+
 /** One level of a refinement: its metric and its spacing. */
 struct RefinementLevel
 {
@@ -203,7 +212,8 @@ struct CheckPlan
   double rivalGain = 0.0;
   double halvesMm = 3.0; ///< mean distance of two halves
   double otherMm = 1.0;  ///< mean distance by which the other metric moves the result
-  bool hasBlocks = true; ///< whether parts of the volume may not belong elsewhere (BlockCheck.h)
+  Descriptor
+    blocks; ///< finds parts that belong elsewhere (BlockCheck.h); none: they are not looked for
 };
 
 /** The levels and factors of a refinement. */

@@ -122,10 +122,13 @@ std::string insideReason(const std::optional<double>& gain, double besideMm)
 
 std::string elsewhereReason(const Elsewhere& blocks)
 {
-  return blocks.ml > 0.0 ? textOf(blocks, "match") +
-      ". Bend the volume there by hand, or give the deformation a mask of the tissue that moves, and "
-      "refine again."
-                         : std::string();
+  if (!(blocks.ml > 0.0))
+  {
+    return {};
+  }
+  return textOf(blocks, "match") +
+    ". Bend the volume there by hand, or give the deformation a mask of the tissue that moves, "
+    "and refine again.";
 }
 
 std::string broughtReason(const Elsewhere& blocks)
@@ -164,9 +167,10 @@ bool Verification::finishInside()
     const bool isSecond = this->Found.trust == Trust::Doubtful; // of two checks that found a fault
     this->Found.lower(isSecond ? Trust::Failed : Trust::Doubtful, reason);
   }
-  if (this->Limits.hasBlocks)
+  if (this->Limits.blocks.make)
   {
-    this->Blocks = std::make_unique<BlockCheck>(this->Check.pair(), this->Result);
+    this->Blocks =
+      std::make_unique<BlockCheck>(this->Check.pair(), this->Result, this->Limits.blocks);
   }
   return true;
 }
@@ -240,8 +244,8 @@ double Verification::done() const
   constexpr double OfBlocks = 0.2;
   const double blocks = this->Search ? 1.0 : (this->Blocks ? this->Blocks->done() : 0.0);
   const double searched = this->Search ? this->Search->done() : 0.0;
-  return this->IsFinished ? 1.0
-                          : OfCheck * this->Check.done() + OfBlocks * blocks +
-      (1.0 - OfCheck - OfBlocks) * searched;
+  const double done =
+    OfCheck * this->Check.done() + OfBlocks * blocks + (1.0 - OfCheck - OfBlocks) * searched;
+  return this->IsFinished ? 1.0 : done;
 }
 }

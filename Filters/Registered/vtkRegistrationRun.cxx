@@ -101,7 +101,7 @@ void vtkRegistrationRun::Running::BeginChecks()
   this->Checks = std::make_unique<Verification>(std::move(this->Pair), this->Bent, this->Plan);
 }
 
-// Parts of the volume that belong elsewhere are brought there, and the refinement goes on from that.
+// Parts of the volume that belong elsewhere are brought there, and the refinement goes on from it.
 // The result of which the least belongs elsewhere is kept.
 void vtkRegistrationRun::Running::FinishChecks()
 {
@@ -145,8 +145,9 @@ bool vtkRegistrationRun::Running::IsFinished() const
 double vtkRegistrationRun::Running::Done() const
 {
   const double done = this->Rigid ? this->Rigid->progress().done : this->Elastic->progress().done;
-  return RegistrationPart * done +
+  const double part = RegistrationPart * done +
     (1.0 - RegistrationPart) * (this->Checks ? this->Checks->done() : 0.0);
+  return (this->Rounds + part) / (this->Rounds + 1);
 }
 
 vtkRegistrationRun::vtkRegistrationRun()
@@ -239,7 +240,7 @@ void vtkRegistrationRun::Begin(bool bends)
   this->Internal->Plan = similarities().front().plan;
   this->Internal->Plan.check.halvesMm = AlignHalvesMm;
   this->Internal->Plan.check.otherMm = AlignOtherMm;
-  this->Internal->Plan.check.hasBlocks = false; // tissue may be bent
+  this->Internal->Plan.check.blocks = {}; // tissue may be bent
   this->Internal->Bent = source.bent
     ? effectiveLattice(*source.bent)
     : makeLattice(withDimensions(grids.rest, glm::ivec3(StillSides)), KernelCatmullRom);

@@ -69,10 +69,21 @@ class Steps:
             lines.append(f"{len(errors.errors)} landmarks, {errors.mean:.2f} mm in the mean, "
                          f"{errors.largest:.2f} mm at most")
         if lines:
-            return "", "; ".join(lines)
+            doubt = self._cavity_doubt() if self.trace_distance or self.contact_distance else ""
+            return "", "; ".join(lines) + doubt
         if self.traces is None and self.electrodes is None:
             return "traces, electrodes, or landmarks with both positions", ""
         return "a brain, or a surface_level", ""
+
+    def _cavity_doubt(self):
+        """A sentence if points are left out by a cavity whose reference was moved; else empty."""
+        moved = self.comparison
+        if self.cavity is None or moved is None or not any(
+                [*moved.ReferenceTranslation, *moved.ReferenceRotation]):
+            return ""
+        return (". The reference was moved, and its cavity with it, but points are left out by the "
+                "cavity as its file has it: align first and save the cavity where it belongs, or "
+                "leave the cavity out")
 
     def landmark_errors(self):
         """Errors of the landmarks now, mm; None without pairs or if none match.
@@ -118,6 +129,7 @@ class Steps:
             grids = self.part("at_rest")
             doubts = grids.GetPropertyValue("Warning") if grids is not None else ""
             found += f". {doubts}" if doubts else ""
+            found += self._cavity_doubt()
         return "", reason_of(fit) or found
 
     def _step_by_hand(self):

@@ -26,6 +26,7 @@ Similarity describeLocalCorrelation()
     { &LocalCorrelationMetric, 1.3, MostCost, false, true } };
   result.plan.check.halves = { &LocalCorrelationMetric, 4.0, 1.0, true };
   result.plan.check.other = { &SelfSimilarityMetric, 4.0, 1.0, true };
+  result.plan.check.blocks = selfSimilarityDescriptor();
   return result;
 }
 }

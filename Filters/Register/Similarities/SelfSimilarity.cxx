@@ -251,8 +251,8 @@ std::vector<float> importanceOf(const LevelVolumes& level)
   return steepness;
 }
 
-// Numbers of neighbouring samples are alike. So a comparison may take one in so many: in 4, those whose
-// indices are all even or all odd; in 8, those whose indices are all even.
+// Numbers of neighbouring samples are alike. So a comparison may take one in so many: in 4, those
+// whose indices are all even or all odd; in 8, those whose indices are all even.
 void thinOut(LevelSamples& samples, int oneIn)
 {
   const glm::ivec3 sides = samples.rows.samples().dimensions;
@@ -398,6 +398,11 @@ constexpr Support PlainSupport{ SelfSimilaritySupport.along + 1, SelfSimilarityS
 constexpr Support GradientSupport{ PlainSupport.along + 1, PlainSupport.across + 1 };
 }
 
+Descriptor selfSimilarityDescriptor()
+{
+  return { SelfSimilaritySupport, SelfSimilarityNumbers, &selfSimilarity };
+}
+
 Metric selfSimilarityMetric()
 {
   return { PlainSupport, SelfSimilarity<1, 1>::BytesPerPoint, &made<1, 1> };
@@ -427,11 +432,12 @@ Similarity describeSelfSimilarity()
     "For volumes of any contrast. Compares self-similarity (SSC), and at the end how well a "
     "parabola of the volume's values explains the reference in small windows.";
   result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &ThinSelfSimilarity, 2.0 },
-    { &QuadraticFit, 1.5, 1.0, false, true, 1, LastStiffness } };
+    { &QuadraticFit, 1.4, 1.0, false, true, 1, LastStiffness } };
   result.plan.stiffness = CoarseStiffness;
   result.plan.converged = Converged;
   result.plan.check.halves = { &SelfSimilarityMetric, 4.0, 1.0, true };
   result.plan.check.other = { &QuadraticFit, 4.0, 1.0, true };
+  result.plan.check.blocks = selfSimilarityDescriptor();
   result.plan.check.halvesMm = 3.5; // 3.05 mm in a right pair of T1 and T2 in slices of 2.7 mm
   return result;
 }

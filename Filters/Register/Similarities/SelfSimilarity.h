@@ -24,6 +24,9 @@ constexpr Support SelfSimilaritySupport{ SelfSimilarityDistance + SelfSimilarity
 /** The 12 numbers (0 to 1) of each point, interleaved. */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> selfSimilarity(const Volume& volume);
 
+/** The 12 numbers as a descriptor. */
+Descriptor selfSimilarityDescriptor();
+
 /** The mean squared difference of the 12 numbers of both volumes. */
 Metric selfSimilarityMetric();
 

@@ -83,7 +83,7 @@ Similarity describeUltrasound()
     { &Fine, SpacingMm, 1.0, true }, { &Fine, SpacingMm } };
   result.plan.stiffness = SpeckleStiffness;
   result.plan.fan = FanLimits{};
-  result.plan.check.halves = { &Search, SpacingMm, 1.0, true };
+  result.plan.check.halves = { &Whole, SpacingMm, 1.0, true };
   result.plan.check.rivalGain = LeastRivalGain; // LC2 has its say in the result already
   return result;
 }

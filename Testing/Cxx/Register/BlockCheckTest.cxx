@@ -48,7 +48,7 @@ Lattice still()
 
 BlockCheck checked(const RegisteredPair& pair, const Lattice& result)
 {
-  BlockCheck check(pair, result);
+  BlockCheck check(pair, result, similarities().front().plan.check.blocks);
   double last = 0.0;
   while (check.step())
   {
@@ -121,7 +121,8 @@ TEST(BlockCheck, ARefinementGoesOnFromThere)
   again.beginAt(start, check.motion());
   const std::size_t inMiddle = truth.grid.offset(4, 4, 3);
   const glm::vec3 right = truth.displacements[inMiddle];
-  EXPECT_LT(glm::distance(again.lattice().displacements[inMiddle], right), 0.5f * glm::length(right));
+  EXPECT_LT(
+    glm::distance(again.lattice().displacements[inMiddle], right), 0.5f * glm::length(right));
   while (!again.step().isFinished)
   {
   }
@@ -129,7 +130,8 @@ TEST(BlockCheck, ARefinementGoesOnFromThere)
   for (int i = 0; i < 5; ++i)
   {
     const glm::dvec3 at = middle(smallGrid()) + glm::dvec3(6.0 * i - 12.0, 3.0, -2.0);
-    sum += glm::distance(displacementOfTissue(truth, at), displacementOfTissue(again.lattice(), at));
+    sum +=
+      glm::distance(displacementOfTissue(truth, at), displacementOfTissue(again.lattice(), at));
   }
   EXPECT_LT(sum / 5.0, 0.5);
 }

@@ -175,6 +175,17 @@ INSTANTIATE_TEST_SUITE_P(Starts, UltrasoundFrom,
     glm::dvec4(0.0, 0.0, 4.0, 0.0), glm::dvec4(-2.0, 2.0, -2.0, 0.0),
     glm::dvec4(1.5, 1.5, 1.5, 0.05)));
 
+TEST(Ultrasound, SeveralStartsFindWhatOneMisses)
+{
+  const Lattice start = displacedBy({ 6.0, -6.0, 3.0 }, -0.08);
+  RefinementSettings settings = byUltrasound();
+  const double one = error(refined(start, settings));
+  settings.starts = 8;
+  const double several = error(refined(start, settings));
+  EXPECT_GT(one, 2.0) << "else the test proves nothing";
+  EXPECT_LT(several, 0.3);
+}
+
 TEST(Ultrasound, TheVolumeStaysWhereItIsRight)
 {
   for (const unsigned seed : { 1u, 2u })

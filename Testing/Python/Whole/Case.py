@@ -86,8 +86,12 @@ def test_roles_in_any_order_make_one_pipeline():
         assert list(case.trace_distance.CavityLabels) == [1] == list(case.comparison.CavityLabels)
         assert case.comparison.Reference == case.reference
     assert seen[0] == seen[1], seen
+    assert "moved" not in case.steps[1].found
+    case.comparison.ReferenceTranslation = [2.0, 0.0, 0.0]
+    assert_says(case.steps[1].found, "The reference was moved, and its cavity with it")
     case.reference = None
     assert case.comparison is None and "sub-1_postop" not in names()
+    assert "moved" not in case.steps[1].found
     case.holds_outside = False
     assert case.bent.Mask is None and case.bent.Segmentation == case.brain
 
