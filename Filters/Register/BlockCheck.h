@@ -86,6 +86,7 @@ private:
   glm::dvec3 shiftMm(const Block& block) const;
   glm::dvec3 middleOf(const Block& block) const;
   double weightOf(const Block& block) const;
+  static void blur(Volume& ofBlocks);
   std::vector<std::size_t> connectedTo(std::size_t first, std::vector<char>& isSeen) const;
   void count();
 

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <utility>
 
 namespace brainshift
 {
@@ -263,10 +264,13 @@ void RefineEditor::readFigures()
   at.warning = this->text("Warning");
   at.trust = this->text("Trust");
   at.isChecking = this->figure("Checking") != 0.0;
-  this->Points = this->numbers("ControlPoints");
-  if (at.steps > former) // else the call tried a length of a step, or prepared a level
+  std::vector<double> points = this->numbers("ControlPoints");
+  // Else the call tried a length of a step, or prepared a level. Where a refinement goes on from
+  // elsewhere, or back to a better result, it moves between steps.
+  this->IsDrawn = this->IsDrawn && points == this->Points && at.steps <= former;
+  this->Points = std::move(points);
+  if (at.steps > former)
   {
-    this->IsDrawn = false;
     this->Costs.append(at.costBefore > 0.0 ? at.cost / at.costBefore : 1.0);
   }
 }

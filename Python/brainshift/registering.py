@@ -74,8 +74,10 @@ class _Run:
             for name, figure in result.FIGURES.items():
                 setattr(result, name, self.figure(figure))
             result.finished = bool(self.figure("Finished"))
-            # A call may have tried a length of a step only, or prepared a level.
-            stop = (callback is not None and result.steps > taken and callback(result) is False)
+            # A call may have tried a length of a step only, or prepared a level. Steps begin at 0
+            # again where a refinement goes on.
+            stop = (callback is not None and result.steps not in (0, taken)
+                    and callback(result) is False)
             taken = result.steps
         self.proxy.UpdatePropertyInformation()
         result.trust = self.figure("Trust")
@@ -278,7 +280,8 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
 
     It starts from the present deformation, a fit and strokes, and changes it as little as the
     volumes require. The result replaces both; later strokes follow it. The result is wrong where
-    tissue slides, as along the falx, or was removed without a cavity.
+    tissue slides, as along the falx, or was removed without a cavity. If its checks find a part of
+    the volume that belongs elsewhere, it goes on from there, and `warnings` say so.
 
     - `filter`: a Free-Form Deformation. Its `Lattice` becomes the result, and its `Strokes` become
       empty.
