@@ -338,6 +338,7 @@ PyramidLevel::PyramidLevel(const RegisteredPair& pair, const ComparedRegion& reg
   : Pair(pair)
   , Fan(region.fan())
   , Compares(level.metric)
+  , IsQuick(level.isQuick)
   , SpacingMm(region.spacingMm(level))
   , Samples(region.grid(level))
   , Over(lattice)
@@ -402,6 +403,13 @@ void PyramidLevel::weighReference()
 void PyramidLevel::makeComparison()
 {
   this->Compared = this->Compares->make(std::move(this->Volumes), this->Over);
+  this->Compared->setQuick(this->IsQuick);
+}
+
+void PyramidLevel::become(const RefinementLevel& level)
+{
+  this->Compared->setQuick(level.isQuick);
+  this->IsPrepared = false;
 }
 
 double PyramidLevel::bytes(

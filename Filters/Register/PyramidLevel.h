@@ -93,6 +93,9 @@ public:
   /** Compares only samples in the half; once it is prepared. */
   void restrictTo(const HalfSpace& half) { this->Compared->restrictTo(half); }
 
+  /** Goes on to a level that is compared alike; it may have to prepare more. */
+  void become(const RefinementLevel& level);
+
   const Grid& grid() const { return this->Samples; }
 
   /** Bytes that a level takes beside the volumes themselves. */
@@ -110,6 +113,7 @@ private:
   const RegisteredPair& Pair;
   const Mask* Fan;
   const Metric* Compares;
+  bool IsQuick;
   double SpacingMm;
   Grid Samples;
   const Lattice& Over;

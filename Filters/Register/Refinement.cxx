@@ -224,7 +224,11 @@ void Refinement::finishLevel()
     this->Level = nullptr;
     return;
   }
-  if (!this->level().isComparedLike(levels[next])) // else it need not be prepared again
+  if (this->level().isComparedLike(levels[next])) // most of it is prepared
+  {
+    this->Level->become(levels[next]);
+  }
+  else
   {
     this->Level = nullptr;
   }

@@ -142,6 +142,12 @@ public:
 
   /** Compares only samples whose position at rest is in the half; once it is prepared. */
   virtual void restrictTo(const HalfSpace& half) = 0;
+
+  /**
+   * Whether it compares by a quicker part of its metric, for a search. Without a quicker part it
+   * makes no difference. Afterwards prepare() may have more to do.
+   */
+  virtual void setQuick(bool /*isQuick*/) {}
 };
 
 /** A method of comparison. */
@@ -184,8 +190,9 @@ struct RefinementLevel
   bool isCapped = false;  ///< the spacing grows until there are at most 0.95 million samples
   int kept = 1; ///< of the positions found from several starts: the next level begins there
   double stiffness = 1.0; ///< factor on the stiffness of the plan
+  bool isQuick = false;   ///< compares by the quicker part of its metric
 
-  /** Whether two levels have the same comparison. */
+  /** Whether two levels have the same comparison, perhaps a quicker part of it. */
   bool isComparedLike(const RefinementLevel& other) const
   {
     return this->metric == other.metric && this->spacingMm == other.spacingMm &&

@@ -271,12 +271,13 @@ void thinOut(LevelSamples& samples, int oneIn)
   samples.findStretches();
 }
 
-// One in 8 only if so many are left: a few samples tell too little about what leaves a sweep.
+// A quick comparison takes one in 8 only if so many are left: a few samples tell too little about
+// what leaves a sweep.
 constexpr double LeastOfEighth = 2000.0;
 
 // Mean squared difference of the numbers of both volumes, added up over 12. With two images,
 // samples count by their importance.
-// It takes one sample in OneIn at most.
+// It takes one sample in OneIn.
 template <int Images, int OneIn>
 class SelfSimilarity : public Comparison
 {
@@ -307,13 +308,17 @@ public:
       this->Samples = std::make_unique<LevelSamples>(this->Level, this->Over);
       if constexpr (OneIn > 1)
       {
-        this->Factor = OneIn == 8 && this->Samples->possible < 8.0 * LeastOfEighth ? 4 : OneIn;
-        thinOut(*this->Samples, this->Factor);
+        thinOut(*this->Samples, OneIn);
       }
       this->Rest = this->Samples->read(this->Rest, Channels);
       if constexpr (Images == 2)
       {
         this->Importance = this->Samples->read(importanceOf(this->Level), 1);
+        if (this->Samples->possible >= 2.0 * LeastOfEighth)
+        {
+          this->Quick = std::make_unique<LevelSamples>(*this->Samples);
+          thinOut(*this->Quick, 2 * OneIn);
+        }
       }
       this->Level = {};
       this->Over = {};
@@ -323,12 +328,14 @@ public:
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
   void restrictTo(const HalfSpace& half) override { this->Samples->restrictTo(half); }
+  void setQuick(bool isQuick) override { this->IsQuick = isQuick; }
 
 private:
   LevelVolumes Level; // while it is prepared
   Lattice Over;       // the same
-  int Factor = 1;     // points for each sample
   std::unique_ptr<LevelSamples> Samples;
+  std::unique_ptr<LevelSamples> Quick; // half of them; null: there are too few
+  bool IsQuick = false;
   std::vector<float> Rest;       // at the samples; while it is prepared, at the points
   std::vector<float> Reference;  // at the points
   std::vector<float> Importance; // of the samples; empty: 1 everywhere
@@ -337,7 +344,8 @@ private:
 template <int Images, int OneIn>
 CostAndForces SelfSimilarity<Images, OneIn>::compare(const std::vector<glm::vec3>& displacements)
 {
-  const LevelSamples& samples = *this->Samples;
+  const bool isHalf = this->IsQuick && this->Quick;
+  const LevelSamples& samples = isHalf ? *this->Quick : *this->Samples;
   const Grid& grid = samples.rows.samples();
   std::vector<double> rowSums(samples.stretches.size(), 0.0);
   std::vector<double> rowWeights(samples.stretches.size(), 0.0);
@@ -365,8 +373,9 @@ CostAndForces SelfSimilarity<Images, OneIn>::compare(const std::vector<glm::vec3
     return stretch.first < stretch.last;
   });
   CostAndForces result = averaged(rowSums, rowWeights, std::move(forces));
-  result.samples = this->Factor * std::accumulate(rowCounts.begin(), rowCounts.end(), 0.0);
-  result.possible = this->Factor * samples.possible;
+  const double factor = isHalf ? 2.0 * OneIn : OneIn; // points for each sample
+  result.samples = factor * std::accumulate(rowCounts.begin(), rowCounts.end(), 0.0);
+  result.possible = factor * samples.possible;
   return result;
 }
 
@@ -416,11 +425,6 @@ Metric thinSelfSimilarity()
 Metric thinSelfSimilarityWithGradients()
 {
   return { GradientSupport, SelfSimilarity<2, 4>::BytesPerPoint, &made<2, 4> };
-}
-
-Metric sparseSelfSimilarityWithGradients()
-{
-  return { GradientSupport, SelfSimilarity<2, 8>::BytesPerPoint, &made<2, 8> };
 }
 
 Similarity describeSelfSimilarity()

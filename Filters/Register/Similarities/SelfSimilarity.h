@@ -35,12 +35,10 @@ Metric thinSelfSimilarity();
 
 /**
  * The squared difference of the numbers of both volumes and of those of their gradients' lengths,
- * half each, by a quarter of the samples. Samples count by the steepness of the volume.
+ * half each, by a quarter of the samples. Samples count by the steepness of the volume. The quicker
+ * part takes half of these, if they are many.
  */
 Metric thinSelfSimilarityWithGradients();
-
-/** The same by an eighth of the samples if there are many: for a search. */
-Metric sparseSelfSimilarityWithGradients();
 }
 
 #endif

@@ -24,25 +24,37 @@ constexpr double LeastRivalGain = 0.015;
 constexpr double SpacingMm = 1.0;
 constexpr int KeptPositions = 3; // of a search from several starts
 
-const Metric Search = sparseSelfSimilarityWithGradients();
-const Metric Whole = thinSelfSimilarityWithGradients();
+const Metric Self = thinSelfSimilarityWithGradients();
 const Metric LC2 = linearFitWithGradients();
 
-// The weighted mean of both costs.
+// The weighted mean of both costs. Its quicker part is self-similarity.
 class BothCosts : public Comparison
 {
 public:
   BothCosts(LevelVolumes level, const Lattice& lattice)
-    : First(Whole.make(level, lattice))
+    : First(Self.make(level, lattice))
     , Second(LC2.make(std::move(level), lattice))
   {
   }
 
-  bool prepare() override { return this->First->prepare() && this->Second->prepare(); }
+  bool prepare() override
+  {
+    return this->First->prepare() && (this->IsQuick || this->Second->prepare());
+  }
+
+  void setQuick(bool isQuick) override
+  {
+    this->IsQuick = isQuick;
+    this->First->setQuick(isQuick);
+  }
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override
   {
     CostAndForces result = this->First->compare(displacements);
+    if (this->IsQuick)
+    {
+      return result;
+    }
     const CostAndForces more = this->Second->compare(displacements);
     constexpr float Weights = 1.0f + LocalFitWeight;
     result.cost = (result.cost + LocalFitWeight * more.cost) / Weights;
@@ -62,9 +74,10 @@ public:
 private:
   std::unique_ptr<Comparison> First;
   std::unique_ptr<Comparison> Second;
+  bool IsQuick = false;
 };
 
-const Metric Fine{ Whole.support, Whole.bytesPerPoint + LC2.bytesPerPoint,
+const Metric Both{ Self.support, Self.bytesPerPoint + LC2.bytesPerPoint,
   [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
     return std::make_unique<BothCosts>(std::move(level), lattice);
   } };
@@ -79,11 +92,11 @@ Similarity describeUltrasound()
                    "volumes and of their edges, and LC2. "
                    "The volume moves as a whole before it bends.";
   result.overlapOf = "the ultrasound fan";
-  result.plan.levels = { { &Search, SpacingMm, 1.0, true, false, KeptPositions },
-    { &Fine, SpacingMm, 1.0, true }, { &Fine, SpacingMm } };
+  result.plan.levels = { { &Both, SpacingMm, 1.0, true, false, KeptPositions, 1.0, true },
+    { &Both, SpacingMm, 1.0, true }, { &Both, SpacingMm } };
   result.plan.stiffness = SpeckleStiffness;
   result.plan.fan = FanLimits{};
-  result.plan.check.halves = { &Whole, SpacingMm, 1.0, true };
+  result.plan.check.halves = { &Self, SpacingMm, 1.0, true };
   result.plan.check.rivalGain = LeastRivalGain; // LC2 has its say in the result already
   return result;
 }
