@@ -436,7 +436,7 @@ Similarity describeSelfSimilarity()
     "For volumes of any contrast. Compares self-similarity (SSC), and at the end how well a "
     "parabola of the volume's values explains the reference in small windows.";
   result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &ThinSelfSimilarity, 2.0 },
-    { &QuadraticFit, 1.4, 1.0, false, true, 1, LastStiffness } };
+    { &QuadraticFit, 1.5, 1.0, false, true, 1, LastStiffness } };
   result.plan.stiffness = CoarseStiffness;
   result.plan.converged = Converged;
   result.plan.check.halves = { &SelfSimilarityMetric, 4.0, 1.0, true };
