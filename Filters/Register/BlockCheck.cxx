@@ -133,7 +133,7 @@ void BlockCheck::findPlaces()
 
 void BlockCheck::layBlocks()
 {
-  this->Sides = glm::max((this->Rest.grid.dimensions - BlockPoints) / BlockSteps + 1, 0);
+  this->Sides = glm::max((this->Rest.grid.dimensions - BlockPoints + BlockSteps) / BlockSteps, 0);
   forEachIndex(glm::ivec3(0), this->Sides - 1, [&](const glm::ivec3& at) {
     Block block;
     block.first = BlockSteps * at;
@@ -455,6 +455,6 @@ int BlockCheck::parts() const
 double BlockCheck::done() const
 {
   // The number of slabs is known after the first parts.
-  return this->Blocks.empty() ? 0.0 : static_cast<double>(this->Part) / this->parts();
+  return this->Part < PartsBefore ? 0.0 : static_cast<double>(this->Part) / this->parts();
 }
 }

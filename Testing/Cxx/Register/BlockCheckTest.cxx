@@ -103,12 +103,19 @@ TEST(BlockCheck, DoesNotCountWhatIsHidden)
 
 TEST(BlockCheck, NothingIsTooSmall)
 {
-  RegisteredPair pair;
-  Grid grid = smallGrid();
-  grid.dimensions = { 4, 5, 3 };
-  pair.rest = filled(grid, grain);
-  pair.reference = pair.rest;
-  EXPECT_EQ(checked(pair, makeLattice(withDimensions(grid, { 4, 4, 4 }), 0)).elsewhere().ml, 0.0);
+  for (const glm::ivec3& sides :
+    { glm::ivec3(4, 5, 3), glm::ivec3(40, 42, 4), glm::ivec3(5, 40, 40), glm::ivec3(40, 2, 40) })
+  {
+    RegisteredPair pair;
+    Grid grid = smallGrid();
+    grid.dimensions = sides;
+    pair.rest = filled(grid, grain);
+    pair.reference = pair.rest;
+    const Lattice still = makeLattice(withDimensions(grid, { 4, 4, 4 }), 0);
+    const BlockCheck check = checked(pair, still);
+    EXPECT_EQ(check.elsewhere().ml, 0.0);
+    EXPECT_EQ(check.motion(), Controls(64, glm::vec3(0.0f)));
+  }
 }
 
 TEST(BlockCheck, ARefinementGoesOnFromThere)
