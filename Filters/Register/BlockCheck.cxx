@@ -441,6 +441,10 @@ bool BlockCheck::step()
     if (slab == 2 * this->Sides.z + 1)
     {
       this->count();
+      // The largest parts, which the refinement that goes on from here does not need.
+      this->RestNumbers = {};
+      this->ReferenceNumbers = {};
+      this->Places = {};
     }
     return false;
   }
