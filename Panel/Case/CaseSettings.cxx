@@ -4,6 +4,7 @@
 #include "Panel/Parts/StillWheel.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QJsonArray>
@@ -19,6 +20,7 @@ namespace
 {
 constexpr double MostGrowth = 100.0;   // mm
 constexpr double MostMinutes = 9999.0; // about a week
+constexpr double MostStamp = 1e13;     // ms since 1970, in the year 2286
 
 QString nameOfField(const QString& setting)
 {
@@ -49,6 +51,10 @@ void showIn(QWidget* field, const QJsonValue& value)
   {
     number->setValue(value.toDouble());
   }
+  else if (auto choice = qobject_cast<QComboBox*>(field))
+  {
+    choice->setCurrentIndex(choice->findData(value.toString()));
+  }
   else if (auto text = qobject_cast<QLineEdit*>(field))
   {
     text->setText(textOf(value));
@@ -62,6 +68,7 @@ CaseSettings::CaseSettings()
   this->Form->setContentsMargins(0, 0, 0, 0);
   this->addName();
   this->addMinutes();
+  this->addTraceTimes();
   this->addLevel();
   this->addLabels("brain_labels", tr("Label of the brain"),
     tr("The label that counts as brain. Empty: all above 0."));
@@ -156,6 +163,34 @@ void CaseSettings::addMinutes()
     [this, label](double value) { Q_EMIT this->edited("minutes", value, label); });
   this->addField("minutes", label,
     tr("When the moment was (minutes, on ParaView's clock). Each moment has its own time."), field);
+}
+
+void CaseSettings::addTraceTimes()
+{
+  auto unit = new QComboBox;
+  unit->addItem(tr("no, each moment has its own"), "");
+  unit->addItem(tr("by time stamps in s"), "s");
+  unit->addItem(tr("by time stamps in ms"), "ms");
+  unit->addItem(tr("by time stamps in min"), "min");
+  const QString ofUnit = tr("Traces of all moments");
+  this->connect(unit, &QComboBox::activated, this, [this, unit, ofUnit](int at) {
+    Q_EMIT this->edited("traces_by_time", unit->itemData(at).toString(), ofUnit);
+  });
+  this->addField("traces_by_time", ofUnit,
+    tr("Whether the traces are those of all moments. A point belongs to the last moment that began "
+       "at or before its time stamp, the point array Time."),
+    unit);
+
+  auto start = new QDoubleSpinBox;
+  start->setRange(-MostStamp, MostStamp);
+  start->setDecimals(3);
+  start->setKeyboardTracking(false);
+  const QString ofStart = tr("Stamp at minute 0");
+  this->connect(start, &QDoubleSpinBox::valueChanged, this,
+    [this, ofStart](double value) { Q_EMIT this->edited("trace_start", value, ofStart); });
+  this->addField("trace_start", ofStart,
+    tr("The time stamp that the traces have at minute 0 of ParaView's clock, in their unit."),
+    start);
 }
 
 void CaseSettings::addLevel()

@@ -34,6 +34,7 @@ private:
   void addLabels(const QString& name, const QString& label, const QString& tip);
   void addName();
   void addMinutes();
+  void addTraceTimes();
   void addLevel();
   void addGrowth();
   void addField(const QString& name, const QString& label, const QString& tip, QWidget* field);

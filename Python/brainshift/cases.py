@@ -16,10 +16,13 @@ from .moments import SHARED, Moments
 from .resecting import Resections
 from .roles import FILE_ROLES, ROLES, ending, holds_both, landmark_columns, paired, proposed
 from .steps import Steps
+from .timing import TimedTraces
 
 #: Parts of the pipeline that a case makes, beside the sources of its roles.
 _OF_FIT = ("joined", "at_rest")
-_MADE = ("resected", "trace_distance", "contact_distance", "comparison", *_OF_FIT, "bent")
+_OF_TRACES = ("timed", "cloud")
+_MADE = ("resected", "trace_distance", "contact_distance", "comparison", *_OF_FIT, *_OF_TRACES,
+         "bent")
 
 
 class _Role:
@@ -96,7 +99,7 @@ def _level(name, value):
     return None if value is None else float(value)
 
 
-class Case(Steps, Moments, Resections):
+class Case(Steps, Moments, TimedTraces, Resections):
     """A patient: what is known, by roles, and the pipeline that it makes.
 
         case = brainshift.Case(volume="T1.nii.gz", brain="mask.nii.gz", traces="trace.csv")
@@ -264,7 +267,7 @@ class Case(Steps, Moments, Resections):
     def _state(self):
         """What results depend on: roles, settings and the deformation as they are."""
         parts = [self.part(role) for role in (*ROLES, "measured", "bent", "comparison",
-                                             "at_rest")]
+                                             "at_rest", "timed")]
         bent = self.bent
         parts.append(bent.Lattice if bent else None)
         settings = [getattr(self, name) for name, kind in vars(Case).items()
@@ -320,6 +323,8 @@ class Case(Steps, Moments, Resections):
             names = {"traces": "traced points", "electrodes": "contacts"}
             source = self._source_of(value, role)
             self._refuse_loop(role, source)
+            if role == "traces" and self.traces_by_time:
+                self._require_stamps(source)
             self._take(role, source, names.get(role))
             if role == "opening":
                 self._keep("opening_ball", None)
@@ -327,7 +332,8 @@ class Case(Steps, Moments, Resections):
         for source, name in self._unnamed:  # now former sources have given their names back
             simple.RenameSource(free_name(name), source)
         self._unnamed = []
-        for case in self.moments if role in ("brain", "tumour") else ():  # they are of the patient
+        shared = ("brain", "tumour", *(["traces"] if self.traces_by_time else []))
+        for case in self.moments if role in shared else ():
             if case != self:
                 case._take(role, self.part(role))
                 case._wire()
@@ -339,6 +345,7 @@ class Case(Steps, Moments, Resections):
             role, ("bent", "joined", "at_rest", "moments"))
         made = [case.part(part) for case in cases for part in parts]
         made += [case.fit_source() for case in cases if parts[1:]]
+        made += [case.part("timed") for case in self.moments if role == "traces"]
         inputs = inputs_of(source)
         return any(part.SMProxy.GetGlobalID() in inputs for part in made if part)
 
@@ -404,7 +411,7 @@ class Case(Steps, Moments, Resections):
 
         source = self.part(part)
         if any(value is None for value in inputs.values()):
-            if source is not None and part in _OF_FIT:  # which uses it still
+            if source is not None and part in (*_OF_FIT, *_OF_TRACES):  # which uses it still
                 source.SMProxy.RemoveAnnotation(self._key(part))
                 self._loose.append(source)
             elif source is not None:
@@ -434,6 +441,7 @@ class Case(Steps, Moments, Resections):
             for key, value in self._settings.items() if former is None else ():
                 bent.SMProxy.SetAnnotation(SETTING + key, json.dumps(value))
             self._limit(bent)
+            self._wire_times()
             fit = self.fit_source()
             if fit is not None and fit.SMProxy.HasAnnotation(self._key("fit")):
                 self._set(fit, {"Input": volume, **_shared(bent), "Mask": bent.Mask,
@@ -486,7 +494,7 @@ class Case(Steps, Moments, Resections):
 
     def _distances(self, bent):
         cortex = self.cortex()
-        for part, points, name in (("trace_distance", self.traces, "trace distance"),
+        for part, points, name in (("trace_distance", self.traced, "trace distance"),
                                    ("contact_distance", self.electrodes, "contact distance")):
             measure = self._made(part, "TraceDistance", name, Input=points if cortex else None,
                                  Deformation=bent)
@@ -513,7 +521,7 @@ class Case(Steps, Moments, Resections):
         from paraview import servermanager
 
         contacts = servermanager.OutputPort(grids, 1) if grids is not None else None
-        points = [source for source in (self.traces, contacts) if source is not None]
+        points = [source for source in (self.traced, contacts) if source is not None]
         if len(points) < 2:
             self._made("joined", "", "", Input=None)
             return points[0] if points else None

@@ -117,13 +117,15 @@ def _told_settings(case):
     has_brain = case.brain is not None
     points = case.traces is not None or case.electrodes is not None
     several = len(case.moments) > 1
+    by_time = bool(case.traces_by_time)
     shown = {
         "surface_level": points and not has_brain,
         "holds_outside": has_brain, "mask_growth": has_brain and case.holds_outside,
         "brain_labels": has_brain, "tumour_labels": case.tumour is not None,
         "cavity_labels": case.cavity is not None,
         "landmarks_judge": all(case.landmarks or (None,)),
-        "moment": several, "minutes": several}
+        "moment": several, "minutes": several,
+        "traces_by_time": by_time or several and case.has_stamps(), "trace_start": by_time}
     return {name: {"value": getattr(case, name), "shown": bool(on)} for name, on in shown.items()}
 
 
@@ -196,7 +198,17 @@ def _choose_landmarks(case, role, chosen):
 
 
 def _set(case, name, value):
+    from paraview import simple
+
+    view = simple.GetActiveView()
+    former = [points for points in (case.traces, *(each.part("timed") for each in case.moments))
+              if view and _is_shown(points, view)]
     setattr(case, name, value)
+    if former and case.traced not in former:  # points of another moment would be seen
+        for points in former:
+            simple.Hide(points, view)
+        if case.traced is not None:
+            _show_points(case.traced, view, _ORANGE)
 
 
 def _set_sphere(case, numbers=()):
@@ -208,7 +220,7 @@ def _set_sphere(case, numbers=()):
 def _guessed_sphere(case):
     import numpy
 
-    source = case.traces or case.electrodes
+    source = case.traced or case.electrodes
     points = read_from(source).positions if source is not None else []
     if len(points):
         centre = numpy.mean(points, axis=0)
@@ -246,7 +258,7 @@ def _look(case):
 
     view = simple.GetActiveViewOrCreate("RenderView")
     case.show(view)
-    for points, measure, color in ((case.traces, case.trace_distance, _ORANGE),
+    for points, measure, color in ((case.traced, case.trace_distance, _ORANGE),
                                    (case.electrodes, case.contact_distance, _BLUE)):
         if points is not None and not (measure and _is_shown(measure, view)):
             _show_points(points, view, color)
@@ -263,7 +275,7 @@ def _measure(case):
     from paraview import simple
 
     view = simple.GetActiveViewOrCreate("RenderView")
-    for points, measure in ((case.traces, case.trace_distance),
+    for points, measure in ((case.traced, case.trace_distance),
                             (case.electrodes, case.contact_distance)):
         if measure is not None:
             simple.Hide(points, view)

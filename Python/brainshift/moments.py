@@ -7,11 +7,11 @@ from .casesources import free_name, kept, stem
 
 #: Settings of a case that its next moment begins with.
 _KEPT = ("surface_level", "holds_outside", "mask_growth", "brain_labels", "tumour_labels",
-         "landmarks_judge", "opening_ball")
+         "landmarks_judge", "opening_ball", "traces_by_time", "trace_start")
 
 #: What a view shows of a case.
-_SHOWN = ("bent", "comparison", "resected", "traces", "electrodes", "trace_distance",
-          "contact_distance")
+_SHOWN = ("bent", "comparison", "resected", "traces", "timed", "electrodes",
+          "trace_distance", "contact_distance")
 
 #: Settings that belong to roles of all moments.
 SHARED = ("holds_outside", "mask_growth", "brain_labels", "tumour_labels")
@@ -55,6 +55,7 @@ class Moments:
                              + "; give each moment its own time")
         self._keep("minutes", value)
         self._wire()
+        self._rewire_times()
 
     @property
     def moments(self):
@@ -100,6 +101,9 @@ class Moments:
         if self.part("landmarks") is not None:
             case.landmarks = self.part("landmarks"), None
         self._gather([*former, case])
+        if self.traces_by_time:
+            case.traces = self.traces
+            case._rewire_times()
         return case
 
     @kept

@@ -114,7 +114,7 @@ def _outwards(case):
     from .points import read_from
 
     middle = numpy.array(_middle(case.volume))
-    points = case.traces or case.electrodes
+    points = case.traced or case.electrodes
     if points is not None:
         return read_from(points).positions.mean(axis=0) - middle
     ball = case.opening_ball()
@@ -296,7 +296,7 @@ def focus_of(case):
         low, high = tumour.box()
         place = tumour.positions(((low + high) / 2.0)[None])
         return deformed_from_rest(case.bent, place)[0]
-    points = case.traces or case.electrodes
+    points = case.traced or case.electrodes
     if points is not None:
         return 0.75 * read_from(points).positions.mean(axis=0) + 0.25 * middle
     return middle

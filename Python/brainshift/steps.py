@@ -69,8 +69,16 @@ class Steps:
             lines.append(f"{len(errors.errors)} landmarks, {errors.mean:.2f} mm in the mean, "
                          f"{errors.largest:.2f} mm at most")
         if lines:
+            if self.lacks_traced():
+                lines.append(f"no {self.lacks_traced()}")
+            strays = self.of_no_moment()
+            if strays:
+                lines.append(f"{strays} traced points belong to no moment: they are of before the "
+                             "first, or have no time stamp")
             doubt = self._cavity_doubt() if self.trace_distance or self.contact_distance else ""
             return "", "; ".join(lines) + doubt
+        if self.lacks_traced():
+            return self.lacks_traced(), ""
         if self.traces is None and self.electrodes is None:
             return "traces, electrodes, or landmarks with both positions", ""
         return "a brain, or a surface_level", ""
@@ -111,12 +119,12 @@ class Steps:
             return None
 
     def _step_fit(self):
-        points = self.traces is not None or self.electrodes is not None
+        points = self.traced is not None or self.electrodes is not None
         pair = all(self.landmarks or (None,)) and not self.landmarks_judge
         if self.lacks_bent():
             return self.lacks_bent(), ""
         if not (points or pair):
-            return "traces, electrodes, or landmarks with both positions", ""
+            return self.lacks_traced() or "traces, electrodes, or landmarks with both positions", ""
         if points and not self.cortex():
             return "a brain, or a surface_level", ""
         fit = self.fit_source()

@@ -9,6 +9,7 @@ from brainshift_testing import assert_says, field, load_plugin, run_tests, scrat
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import simple  # noqa: E402
+from brainshift.points import read_from  # noqa: E402
 from patient_testing import TOP, cap, make_patient, refused, table  # noqa: E402
 
 FOLDER = scratch("moments")
@@ -149,6 +150,91 @@ def test_a_state_keeps_the_moments():
     again = brainshift.Case.all()[0].moments
     assert [(case.moment, case.minutes) for case in again] == [("", 0.0), ("after resection", 95.0)]
     assert numpy.array_equal(bend(again[0].part("moments"), 47.5), half)
+
+
+def stamped(name, stamps, points):
+    """A table of traced points with time stamps in ms."""
+    rows = [[*point, stamp] for point, stamp in zip(points.tolist(), stamps)]
+    table(path(name), ["x", "y", "z", "time_ms"], rows)
+    return path(name)
+
+
+def positions(source):
+    return set(map(tuple, numpy.round(read_from(source).positions, 6).tolist()))
+
+
+def test_traces_of_all_moments_are_told_apart_by_time_stamps():
+    first, second = begun()
+    points, minute = cap(200), 60000.0
+    zero = 1.7e12  # ms since 1970
+    stamps = zero + minute * numpy.linspace(-1.0, 180.0, 200)
+    stamps[90] = zero + 95 * minute  # the moment itself
+    first.traces = stamped("all.csv", stamps, points)
+    first.traces_by_time = "ms"
+    assert second.traces == first.traces and second.traces_by_time == "ms"
+    assert first.traced is None
+    first.landmarks_judge = True
+    steps = {step.name: step for step in first.steps}
+    for text in (steps["Fit"].lacks, steps["Measure"].found):
+        assert_says(text, "traced points of this moment", "from 0 ms", "1.69999994e+12",
+                    "trace_start")
+    second.trace_start = zero
+    early, late = stamps < zero + 95 * minute, stamps >= zero + 95 * minute
+    early &= stamps >= zero
+    wanted = [set(map(tuple, numpy.round(points[mask], 6).tolist())) for mask in (early, late)]
+    assert [positions(first.traced), positions(second.traced)] == wanted
+    assert late[90] and not early[90], "a point of the very moment is of the moment"
+    second.run("Fit")
+    assert second.fit_source().Traces == second.traced
+    measured = dict((step.name, step.found) for step in first.steps)["Measure"]
+    before = int((stamps < zero).sum())
+    assert before == 2
+    assert_says(measured, f"of {early.sum()} traced points", "2 traced points belong to no moment")
+
+    second.minutes = 30
+    assert positions(first.traced) == set(map(tuple, numpy.round(
+        points[(stamps >= zero) & (stamps < zero + 30 * minute)], 6).tolist()))
+    third = second.begin_moment("closing", 120)
+    assert third.traces == first.traces
+    assert positions(third.traced) == set(map(tuple, numpy.round(
+        points[stamps >= zero + 120 * minute], 6).tolist()))
+    kept = [positions(case.traced) for case in first.moments]
+    simple.SaveState(scratch("timed.pvsm"))
+    simple.ResetSession()
+    load_plugin()
+    simple.LoadState(scratch("timed.pvsm"))
+    again = brainshift.Case.all()[0].moments
+    assert [positions(case.traced) for case in again] == kept
+    again[0].traces_by_time = ""
+    assert again[1].traced == again[0].traces and "timed" not in [
+        part for part in ("timed", "cloud") if again[1].part(part)]
+
+
+def test_traces_without_time_stamps_are_refused_as_those_of_all_moments():
+    first, second = begun()
+    refused(["no time stamps", "Time"], lambda: setattr(first, "traces_by_time", "s"))
+    refused(["'h'", "s, ms, min"], lambda: setattr(first, "traces_by_time", "h"))
+    refused(["finite"], lambda: setattr(first, "trace_start", float("inf")))
+    second.traces = stamped("late.csv", numpy.arange(50.0), cap(50))
+    refused(["traces of its own", "pointer"], lambda: setattr(second, "traces_by_time", "ms"))
+    first.traces = None
+    second.traces_by_time = "ms"
+    refused(["no time stamps"], lambda: setattr(second, "traces", path("pointer.csv")))
+    assert second.traces is not None and second.traces == first.traces
+    timed = first.part("timed")
+    refused(["traces must not be made of"], lambda: setattr(second, "traces", timed))
+
+
+def test_points_in_one_cell_are_told_apart_as_well():
+    first, second = begun()
+    stamps = numpy.linspace(0.0, 180.0, 40)
+    rows = simple.Calculator(Input=simple.TableToPoints(
+        Input=simple.CSVReader(FileName=[stamped("cells.csv", stamps, cap(40))]), XColumn="x",
+        YColumn="y", ZColumn="z"), ResultArrayName="Time", Function="time_ms")
+    first.traces = rows
+    first.traces_by_time = "min"
+    counts = [case.traced.GetDataInformation().GetNumberOfPoints() for case in (first, second)]
+    assert counts == [int((stamps < 95).sum()), int((stamps >= 95).sum())], counts
 
 
 run_tests(globals())

@@ -15,7 +15,7 @@ import window_testing as window
 from brainshift import scenes
 from brainshift_testing import scratch
 from paraview import simple
-from patient_testing import make_patient
+from patient_testing import cap, make_patient, sunk, table
 
 FOLDER = scratch("patient")
 DOCK = "BrainShiftCaseDock"
@@ -54,6 +54,8 @@ def undo(label):
 
 def set_up():
     make_patient(FOLDER)
+    points = [[*point, 60.0 * minute] for minute, point in enumerate(sunk(cap(150)).tolist())]
+    table(path("pointer.csv"), ["x", "y", "z", "time_s"], points)
     for source in list(simple.GetSources().values()):
         simple.Delete(source)
     hand.resize_window(1280, 900)
@@ -196,10 +198,29 @@ def another_moment_is_begun_and_shown():
     assert "2 45 min" in text_of("Moments"), text_of("Moments")
     undo("Moments")
     assert visible(first.bent) == 1, "it is shown again"
+    traces_go_by_time(first, later)
     undo("Set Time")
     undo("Set Moment")
     undo("New Moment")
     assert case().moments == [case()] and case() == first, names()
+
+
+def traces_go_by_time(first, later):
+    """The traces have a time stamp each minute, and the later moment begins at 45 minutes."""
+    unit = "by time stamps in s"
+    assert hand.choose_by_keys("BrainShiftCase_traces_by_time", unit)
+    settled()
+    assert hand.entries("BrainShiftCase_traces_by_time")[0] == unit
+    counts = [each.traced.GetDataInformation().GetNumberOfPoints() for each in (first, later)]
+    assert counts == [45, 105] and later.traces == first.traces, counts
+    assert "45 of 45 traced points" in text_of("Measure"), text_of("Measure")
+    assert hand.type_into("BrainShiftCase_trace_start", "600")
+    settled()
+    assert first.trace_start == later.trace_start == 600.0
+    assert "10 traced points belong to no moment" in text_of("Measure"), text_of("Measure")
+    undo("Set Stamp at minute 0")
+    undo("Set Traces of all moments")
+    assert later.traces is None and first.traced == first.traces
 
 
 def a_folder_is_sorted_and_corrected():
