@@ -58,6 +58,7 @@ struct vtkDeformedVolumeMapper::State
   WindowDevices<VolumeDevice> Devices;
   Counters Count;
   SceneDeformation Deformation; // of the input
+  std::vector<double> Part;     // that is drawn, bounds of the deformed frame, mm; empty: all of it
 
   bool TakesInput = false;
   unsigned long long SettingsTime = 0; // of the last change other than of the input
@@ -109,14 +110,47 @@ double* vtkDeformedVolumeMapper::GetBounds()
 {
   vtkVolumeMapper::GetBounds();
   auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
+  if (image && !this->Internal->Part.empty())
+  {
+    std::copy_n(this->Internal->Part.data(), 6, this->Bounds);
+  }
+  else if (image)
+  {
+    this->WidenByTissue(image, this->Bounds);
+  }
+  return this->Bounds;
+}
+
+void vtkDeformedVolumeMapper::WidenByTissue(vtkImageData* image, double bounds[6])
+{
+  this->UpdateDeformation(image);
+  this->Internal->Deformation.widen(bounds);
+  widenByReference(image, bounds);
+}
+
+const Lattice* vtkDeformedVolumeMapper::GetLattice(vtkImageData* image)
+{
   if (!image)
   {
-    return this->Bounds;
+    return nullptr;
   }
   this->UpdateDeformation(image);
-  this->Internal->Deformation.widen(this->Bounds);
-  widenByReference(image, this->Bounds);
-  return this->Bounds;
+  const SceneDeformation& deformation = this->Internal->Deformation;
+  return deformation.deformed ? &deformation.lattice : nullptr;
+}
+
+void vtkDeformedVolumeMapper::SetDrawnPart(const double* bounds)
+{
+  std::vector<double> part;
+  if (bounds)
+  {
+    part.assign(bounds, bounds + 6);
+  }
+  if (part != this->Internal->Part)
+  {
+    this->Internal->Part = part;
+    this->Modified();
+  }
 }
 
 void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
@@ -200,7 +234,8 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.wish.adaptive = this->AdaptiveQuality;
   request.wish.keep = this->KeepPicture || OverVolumes::areVisibleIn(renderer);
   request.wish.countSamples = this->CountSamples;
-  request.wish.occlusion = { this->AmbientOcclusion, this->OcclusionRadiusOn(image, volume) };
+  request.part = state.Part;
+  request.wish.occlusion = { this->OcclusionDarkness(), this->OcclusionRadiusOn(image, volume) };
   request.wish.rate = window->GetDesiredUpdateRate();
   request.wish.settingsTime = state.SettingsTime;
   GpuTask gpu(window, state.Count);
@@ -273,6 +308,18 @@ double vtkDeformedVolumeMapper::StepOn(const Grid& grid)
     this->TellOnce(remark.str());
   }
   return step;
+}
+
+// A part does not know what tissue of others is beside it.
+double vtkDeformedVolumeMapper::OcclusionDarkness()
+{
+  if (this->Internal->Part.empty() || this->AmbientOcclusion <= 0.0)
+  {
+    return this->AmbientOcclusion;
+  }
+  this->TellOnce("Ambient Occlusion is off: several MPI ranks draw the volume, and none of them "
+                 "sees the tissue of the others");
+  return 0.0;
 }
 
 // mm, world.

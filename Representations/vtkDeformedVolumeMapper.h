@@ -37,6 +37,7 @@ namespace brainshift
 struct Counters;
 struct DrawnValues;
 struct Grid;
+struct Lattice;
 struct SceneReference;
 struct TissueFacts;
 struct TissueRequest;
@@ -227,6 +228,15 @@ public:
   double* GetBounds() VTK_SIZEHINT(6) override;
   ///@}
 
+  ///@{
+  /** For several MPI ranks that draw a part of the deformed frame each. Widens bounds (mm; x, y, z,
+   * least and greatest each) by where an image's tissue can go; the deformation of an image, null
+   * if it has none; bounds (mm) of the part to draw, null (default): all of it. */
+  void WidenByTissue(vtkImageData* image, double bounds[6]);
+  const brainshift::Lattice* GetLattice(vtkImageData* image);
+  void SetDrawnPart(const double* bounds);
+  ///@}
+
   /**
    * Excludes all behind the tissue of the last picture from a selection. The volume itself
    * cannot be selected. A selection of cells does so when it draws volumes. A selection of points
@@ -269,6 +279,7 @@ private:
     vtkImageData* image, const brainshift::TissueRequest& tissue);
   double StepOn(const brainshift::Grid& grid);
   double OcclusionRadiusOn(vtkImageData* image, vtkVolume* volume);
+  double OcclusionDarkness();
   void UpdateDeformation(vtkImageData* image);
   void TellOnce(const std::string& sentence);
 

@@ -13,6 +13,7 @@
 #include "vtkCompositeRepresentation.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVLODVolume.h"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <vector>
 
 vtkStandardNewMacro(vtkDeformedVolumeReport);
 
@@ -75,12 +77,61 @@ double* vtkDeformedVolumeReport::GetVoxelSteps()
   return this->VoxelSteps;
 }
 
+void vtkDeformedVolumeReport::SetPixel(int x, int y)
+{
+  this->Pixel[0] = x;
+  this->Pixel[1] = y;
+  this->Modified();
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  this->IsKnown = ranks && ranks->GetNumberOfProcesses() > 1;
+  if (this->IsKnown)
+  {
+    this->FindFacts();
+    this->TakeNearest();
+  }
+}
+
+// A client asks the first rank alone for answers, so all ranks share what they found before.
+void vtkDeformedVolumeReport::TakeNearest()
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  const bool found = this->Tissue[3] != 0.0;
+  const double own = found ? this->DistanceAhead() : VTK_DOUBLE_MAX;
+  std::vector<double> all(ranks->GetNumberOfProcesses());
+  ranks->AllGather(&own, all.data(), 1);
+  const int nearest = static_cast<int>(std::min_element(all.begin(), all.end()) - all.begin());
+  ranks->Broadcast(this->Tissue, 7, nearest);
+  ranks->Broadcast(this->Facts, 19, nearest);
+  vtkIdType length = static_cast<vtkIdType>(this->LabelName.size());
+  ranks->Broadcast(&length, 1, nearest);
+  this->LabelName.resize(length);
+  ranks->Broadcast(this->LabelName.data(), length, nearest);
+}
+
+// mm, along the direction of view.
+double vtkDeformedVolumeReport::DistanceAhead() const
+{
+  vtkCamera* camera = this->View->GetRenderer()->GetActiveCamera();
+  double fromEye[3];
+  vtkMath::Subtract(this->Tissue, camera->GetPosition(), fromEye);
+  return vtkMath::Dot(fromEye, camera->GetDirectionOfProjection());
+}
+
 double* vtkDeformedVolumeReport::GetTissue()
+{
+  if (!this->IsKnown)
+  {
+    this->FindTissue();
+  }
+  return this->Tissue;
+}
+
+void vtkDeformedVolumeReport::FindTissue()
 {
   std::fill_n(this->Tissue, 7, 0.0);
   if (!this->View)
   {
-    return this->Tissue;
+    return;
   }
   vtkRenderer* renderer = this->View->GetRenderer();
   vtkDeformedVolumeMapper* mapper = this->Mapper();
@@ -92,20 +143,29 @@ double* vtkDeformedVolumeReport::GetTissue()
       : slices && slices->Pick(renderer, pixel[0], pixel[1], this->Tissue, this->Tissue + 4);
   });
   this->Tissue[3] = found ? 1.0 : 0.0;
-  return this->Tissue;
 }
 
 double* vtkDeformedVolumeReport::GetFacts()
+{
+  if (!this->IsKnown)
+  {
+    this->FindFacts();
+  }
+  return this->Facts;
+}
+
+void vtkDeformedVolumeReport::FindFacts()
 {
   std::fill_n(this->Facts, 19, 0.0);
   this->LabelName.clear();
   auto whole = vtkWholeVolumeRepresentation::SafeDownCast(this->ActiveRepresentation());
   vtkDeformedVolumeMapper* mapper = this->Mapper();
   vtkDeformedSlicesMapper* slices = this->Slices();
-  const double* tissue = this->GetTissue();
+  this->FindTissue();
+  const double* tissue = this->Tissue;
   if (tissue[3] == 0.0 || !whole || !(mapper || slices))
   {
-    return this->Facts;
+    return;
   }
   brainshift::guarded(this, [&] {
     vtkNew<vtkMatrix4x4> volumeFromWorld;
@@ -116,12 +176,8 @@ double* vtkDeformedVolumeReport::GetFacts()
     brainshift::TissueFacts facts;
     mapper ? mapper->DescribeTissue(place, facts) : slices->DescribeTissue(place, facts);
     this->TakeFacts(facts);
-    vtkCamera* camera = this->View->GetRenderer()->GetActiveCamera();
-    double fromEye[3];
-    vtkMath::Subtract(tissue, camera->GetPosition(), fromEye);
-    this->Facts[16] = vtkMath::Dot(fromEye, camera->GetDirectionOfProjection());
+    this->Facts[16] = this->DistanceAhead();
   });
-  return this->Facts;
 }
 
 void vtkDeformedVolumeReport::TakeFacts(const brainshift::TissueFacts& facts)

@@ -39,8 +39,9 @@ public:
 
   ///@{
   /** Pixel, from the view's lower left corner, that GetTissue and GetFacts report on. Default -1
-   * -1: none. */
-  vtkSetVector2Macro(Pixel, int);
+   * -1: none. On several MPI ranks each rank drew a part of the picture: they all come here, and
+   * the answers are those of the rank whose tissue is nearest. */
+  void SetPixel(int x, int y);
   vtkGetVector2Macro(Pixel, int);
   ///@}
 
@@ -110,6 +111,10 @@ private:
   vtkDeformedVolumeReport(const vtkDeformedVolumeReport&) = delete;
   void operator=(const vtkDeformedVolumeReport&) = delete;
 
+  void FindTissue();
+  void FindFacts();
+  void TakeNearest();
+  double DistanceAhead() const;
   void TakeFacts(const brainshift::TissueFacts& facts);
   vtkPVDataRepresentation* ActiveRepresentation() const;
   vtkDeformedVolumeMapper* Mapper() const; // null if there is none
@@ -123,6 +128,7 @@ private:
   double Tissue[7] = {};
   double Facts[19] = {};
   std::string LabelName;
+  bool IsKnown = false; // what ranks found together
   double SameTissue[3] = {};
   double SliceNormals[9] = {};
   double VoxelSteps[3] = {};

@@ -5,6 +5,7 @@
 #include "Representations/Picture/SelectionCover.h"
 #include "Representations/Window/EdgeSmoothing.h"
 #include "Representations/Window/MovingWindow.h"
+#include "Representations/Window/RankParts.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
 
@@ -203,6 +204,32 @@ void vtkDeformedVolumeRepresentation::CoverPointSelection(vtkObject* caller, uns
   {
     this->GetDeformedVolumeMapper()->CoverSelection(renderer);
   }
+}
+
+// Ranks blend what they drew from front to back, which is right for these two modes alone. Two
+// colours hide each other in another way.
+bool vtkDeformedVolumeRepresentation::CanDrawParts() const
+{
+  const int blend = this->VolumeMapper->GetBlendMode();
+  return !this->VolumeMapper->GetCropping() && !this->ComparesInColors() &&
+    (blend == vtkVolumeMapper::COMPOSITE_BLEND || blend == vtkVolumeMapper::ISOSURFACE_BLEND);
+}
+
+void vtkDeformedVolumeRepresentation::WidenByTissue(vtkImageData* volume, double bounds[6])
+{
+  this->GetDeformedVolumeMapper()->WidenByTissue(volume, bounds);
+}
+
+std::array<int, 6> vtkDeformedVolumeRepresentation::RestExtent(const brainshift::WholeVolume& whole,
+  vtkImageData* volume, const std::array<double, 6>& part, double haloMm)
+{
+  const brainshift::Lattice* lattice = this->GetDeformedVolumeMapper()->GetLattice(volume);
+  return brainshift::restExtent(whole, lattice, part, haloMm);
+}
+
+void vtkDeformedVolumeRepresentation::SetDrawnPart(const double* part)
+{
+  this->GetDeformedVolumeMapper()->SetDrawnPart(part);
 }
 
 bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)

@@ -5,12 +5,15 @@
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Window/EvidenceLegend.h"
-#include "Representations/Window/GatheredVolume.h"
+#include "Representations/Window/SharedVolume.h"
 #include "Representations/Workarounds/ParaViewFaults.h"
 
 #include "vtkCommunicator.h"
+#include "vtkCompositeRepresentation.h"
 #include "vtkCoordinate.h"
+#include "vtkInformation.h"
 #include "vtkMath.h"
+#include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkOutlineSource.h"
 #include "vtkPVLODVolume.h"
@@ -18,7 +21,11 @@
 #include "vtkPVView.h"
 #include "vtkRenderer.h"
 #include "vtkTextProperty.h"
+#include "vtkTracePointsRepresentation.h"
 #include "vtkVolumeMapper.h"
+
+#include <algorithm>
+#include <cmath>
 
 brainshiftGuardRequestsMacro(vtkWholeVolumeRepresentation);
 
@@ -29,10 +36,22 @@ constexpr int LegendFontSize = 14;
 // of the upper edge are above.
 constexpr double LegendInset = 0.015;
 constexpr double LegendTop = 0.89;
+
+constexpr brainshift::Extent NoExtent{ 0, -1, 0, -1, 0, -1 };
+
+bool isTrueOnAny(bool here)
+{
+  const int own = here;
+  int any = 0;
+  vtkMultiProcessController::GetGlobalController()->AllReduce(
+    &own, &any, 1, vtkCommunicator::MAX_OP);
+  return any != 0;
+}
 }
 
 vtkWholeVolumeRepresentation::vtkWholeVolumeRepresentation()
-  : Gathered(std::make_unique<brainshift::GatheredVolume>())
+  : Shared(std::make_unique<brainshift::SharedVolume>())
+  , Wanted(NoExtent)
 {
   this->Legend->PickableOff();
   this->Legend->UseBoundsOff();
@@ -72,7 +91,7 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
       // NOLINTNEXTLINE(bugprone-parent-virtual-call): without the delivery of the class between
       this->vtkVolumeRepresentation::ProcessViewRequest(request, input, output))
     {
-      this->GatherParts();
+      this->ShareOut(vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW())));
     }
     failed.end();
     const int result = this->Superclass::ProcessViewRequest(request, input, output);
@@ -82,6 +101,16 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
     }
     return result;
   });
+}
+
+void vtkWholeVolumeRepresentation::SetRankHalo(double halo)
+{
+  halo = std::isfinite(halo) ? std::max(halo, 0.0) : 0.0;
+  if (halo != this->RankHalo)
+  {
+    this->RankHalo = halo;
+    this->MarkModified();
+  }
 }
 
 int vtkWholeVolumeRepresentation::RequestData(
@@ -103,27 +132,59 @@ void vtkWholeVolumeRepresentation::WidenBounds()
   }
 }
 
+// ParaView knows one box for each rank and view, so the boxes of two volumes would get mixed up.
+// The actor's transform turns boxes.
+bool vtkWholeVolumeRepresentation::IsAloneIn(vtkPVRenderView* view) const
+{
+  for (int i = 0; view && i < view->GetNumberOfRepresentations(); ++i)
+  {
+    vtkDataRepresentation* other = view->GetRepresentation(i);
+    if (auto composite = vtkCompositeRepresentation::SafeDownCast(other))
+    {
+      other = composite->GetActiveRepresentation();
+    }
+    auto volume = vtkVolumeRepresentation::SafeDownCast(other);
+    auto traces = vtkTracePointsRepresentation::SafeDownCast(other); // which tissue hides
+    if ((volume && volume != this && volume->GetVisibility()) ||
+      (traces && traces->GetVisibility()))
+    {
+      return false;
+    }
+  }
+  return view && this->Actor->GetMatrix()->IsIdentity();
+}
+
 // Every rank comes here for every update, even if its pipeline has failed: the others wait for it.
-void vtkWholeVolumeRepresentation::GatherParts()
+void vtkWholeVolumeRepresentation::ShareOut(vtkPVRenderView* view)
 {
   vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
   if (!ranks || ranks->GetNumberOfProcesses() == 1)
   {
     return;
   }
-  const int isNew = this->IsNew;
-  int isNewOnAny = 0;
-  ranks->AllReduce(&isNew, &isNewOnAny, 1, vtkCommunicator::MAX_OP);
-  if (!isNewOnAny)
+  const bool drawsPart =
+    !isTrueOnAny(!this->Part || !this->CanDrawParts() || !this->IsAloneIn(view));
+  if (!isTrueOnAny(this->IsNew || drawsPart != this->DrawsPart))
   {
     return;
   }
-  const vtkSmartPointer<vtkImageData> volume =
-    this->Gathered->gather(ranks, this->Part, this->WholeExtent);
   this->IsNew = false;
-  this->IsDrawnElsewhere = ranks->GetLocalProcessId() != 0;
+  this->DrawsPart = drawsPart;
+  brainshift::Extent all{};
+  std::copy_n(this->WholeExtent, 6, all.begin());
+  const brainshift::WholeVolume whole = this->Shared->wholeOf(ranks, this->Part, all);
+  const bool isFirst = ranks->GetLocalProcessId() == 0;
+  const brainshift::Box part = drawsPart ? this->OwnPart(whole) : brainshift::Box();
+  if (!drawsPart)
+  {
+    this->Wanted = isFirst ? whole.extent : NoExtent;
+  }
+  const vtkSmartPointer<vtkImageData> volume =
+    this->Shared->share(ranks, this->Part, whole, this->Wanted);
+  this->IsDrawnElsewhere = !drawsPart && !isFirst;
   this->Cache = volume;
   this->VolumeMapper->SetInputData(volume);
+  this->SetDrawnPart(drawsPart ? part.data() : nullptr);
   if (this->IsDrawnElsewhere)
   {
     vtkMath::UninitializeBounds(this->DataBounds);
@@ -132,7 +193,57 @@ void vtkWholeVolumeRepresentation::GatherParts()
   this->DataSize = volume->GetActualMemorySize();
   this->OutlineSource->SetBounds(volume->GetBounds());
   this->OutlineSource->Update();
-  this->WidenBounds();
+  this->WidenBounds(); // ParaView orders ranks by these
+}
+
+// This rank's part of the deformed frame. A rank that lacks voxels of it wants them, and those of
+// the halo around it.
+brainshift::Box vtkWholeVolumeRepresentation::OwnPart(const brainshift::WholeVolume& whole)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  const brainshift::Box part = brainshift::rankParts(
+    this->WholeBounds(whole), ranks->GetNumberOfProcesses())[ranks->GetLocalProcessId()];
+  const brainshift::Extent needed = this->RestExtent(whole, this->Part, part, 0.0);
+  if (!brainshift::holds(this->Wanted, needed) || !brainshift::holds(whole.extent, this->Wanted))
+  {
+    this->Wanted = this->RestExtent(whole, this->Part, part, this->RankHalo);
+  }
+  return part;
+}
+
+// Where tissue can be, the same on each rank.
+brainshift::Box vtkWholeVolumeRepresentation::WholeBounds(const brainshift::WholeVolume& whole)
+{
+  brainshift::Box own{ 1e300, -1e300, 1e300, -1e300, 1e300, -1e300 };
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 world = whole.grid.worldFromGrid(side * glm::dvec3(whole.grid.dimensions - 1));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      own[2 * axis] = std::min(own[2 * axis], world[axis]);
+      own[2 * axis + 1] = std::max(own[2 * axis + 1], world[axis]);
+    }
+  }
+  this->WidenByTissue(this->Part, own.data());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    own[2 * axis] = -own[2 * axis];
+  }
+  brainshift::Box all = own;
+  vtkMultiProcessController::GetGlobalController()->AllReduce(
+    own.data(), all.data(), 6, vtkCommunicator::MAX_OP);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    all[2 * axis] = -all[2 * axis];
+  }
+  return all;
+}
+
+std::array<int, 6> vtkWholeVolumeRepresentation::RestExtent(const brainshift::WholeVolume& whole,
+  vtkImageData*, const std::array<double, 6>& part, double haloMm)
+{
+  return brainshift::restExtent(whole, nullptr, part, haloMm);
 }
 
 void vtkWholeVolumeRepresentation::SetVisibility(bool visible)
@@ -200,4 +311,6 @@ void vtkWholeVolumeRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Legend: " << (legend ? legend : "") << "\n";
   os << indent << "ShowEvidence: " << this->ShowEvidence << "\n";
   os << indent << "IsDrawnElsewhere: " << this->IsDrawnElsewhere << "\n";
+  os << indent << "DrawsPart: " << this->DrawsPart << "\n";
+  os << indent << "RankHalo: " << this->RankHalo << "\n";
 }

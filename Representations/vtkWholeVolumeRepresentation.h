@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkWholeVolumeRepresentation
- * @brief   a volume that one process draws whole
+ * @brief   a volume that MPI ranks draw bent
  *
  * Data delivery, colour maps and transforms are those of ParaView's "Volume", with one difference.
- * On several MPI ranks, ParaView gives each rank a part of the volume to draw. Bent tissue crosses
- * the borders of parts, and light, picks and traces need all of it. So the first rank collects the
- * parts and draws them, and the others draw nothing of it. Surfaces in the view follow it there.
+ * On several MPI ranks, ParaView gives each rank a block of the volume at rest. Bent tissue crosses
+ * the borders of such blocks, and bent blocks have no order in depth. So each rank draws a box of
+ * the *deformed* frame. It gets the voxels whose tissue can come into that box from the ranks that
+ * hold them (Window/RankParts.h, Window/SharedVolume.h). What cannot be drawn so is drawn by the
+ * first rank alone: surfaces in the view follow it there.
  */
 #ifndef vtkWholeVolumeRepresentation_h
 #define vtkWholeVolumeRepresentation_h
@@ -15,15 +17,18 @@
 #include "vtkImageVolumeRepresentation.h"
 #include "vtkNew.h" // for the legend
 
-#include <memory> // for what is gathered
+#include <array>  // for extents
+#include <memory> // for what ranks share
 
 class vtkImageData;
+class vtkPVRenderView;
 
 namespace brainshift
 {
 class EvidenceLegend;
-class GatheredVolume;
+class SharedVolume;
 class WindowText;
+struct WholeVolume;
 }
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkWholeVolumeRepresentation
@@ -49,6 +54,13 @@ public:
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
 
+  ///@{
+  /** How far beyond what it needs a rank has voxels (mm), so that strokes to come ask for none.
+   * Default 10. Only several MPI ranks use it. */
+  void SetRankHalo(double halo);
+  vtkGetMacro(RankHalo, double);
+  ///@}
+
 protected:
   vtkWholeVolumeRepresentation();
   ~vtkWholeVolumeRepresentation() override;
@@ -70,16 +82,32 @@ private:
   /** Whether colours distinguish a volume and a reference, so that stripes show the uncertainty. */
   virtual bool ComparesInColors() const = 0;
 
-  void GatherParts();
+  /** Whether parts of the volume can be drawn by themselves. */
+  virtual bool CanDrawParts() const { return false; }
+  /** Widens bounds (mm; x, y, z, least and greatest each) by where the volume's tissue can go. */
+  virtual void WidenByTissue(vtkImageData*, double[6]) {}
+  /** The voxels whose tissue can come into a part of the deformed frame. */
+  virtual std::array<int, 6> RestExtent(
+    const brainshift::WholeVolume&, vtkImageData*, const std::array<double, 6>&, double haloMm);
+  /** Draws only a part of the deformed frame. Null: all of it. */
+  virtual void SetDrawnPart(const double*) {}
+
+  void ShareOut(vtkPVRenderView* view);
+  std::array<double, 6> OwnPart(const brainshift::WholeVolume& whole);
+  std::array<double, 6> WholeBounds(const brainshift::WholeVolume& whole);
   void WidenBounds();
+  bool IsAloneIn(vtkPVRenderView* view) const;
 
   vtkNew<brainshift::WindowText> Legend;
   vtkSmartPointer<brainshift::EvidenceLegend> Evidence;
   bool ShowEvidence = false;
-  std::unique_ptr<brainshift::GatheredVolume> Gathered;
+  std::unique_ptr<brainshift::SharedVolume> Shared;
   vtkSmartPointer<vtkImageData> Part; // of this process
-  bool IsNew = false;                 // the part, since parts were gathered
+  bool IsNew = false;                 // the part, since voxels were shared out
   bool IsDrawnElsewhere = false;
+  bool DrawsPart = false;    // of several ranks
+  double RankHalo = 10.0;    // mm
+  std::array<int, 6> Wanted; // extent of voxels to draw
 };
 
 #endif

@@ -118,6 +118,7 @@ std::optional<CursorTissue> CursorProbe::tissueAt(
       continue;
     }
     pointAt(this->Report, "Representation", display->getProxy());
+    askAnew(this->Report, "Pixel");
     const std::vector<double> facts = answerOf(this->Report, "Facts");
     if (facts.size() == Numbers && facts[0] != 0.0 && (!nearest || facts[16] < nearestMm))
     {

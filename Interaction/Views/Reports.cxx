@@ -28,6 +28,12 @@ void pointAt(vtkSMProxy* report, const char* property, vtkSMProxy* about)
   }
 }
 
+void askAnew(vtkSMProxy* report, const char* property)
+{
+  report->UpdateVTKObjects();
+  report->UpdateProperty(property, /*force*/ 1);
+}
+
 namespace
 {
 vtkSMPropertyHelper askedAnew(vtkSMProxy* report, const char* property)

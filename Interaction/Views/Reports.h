@@ -21,6 +21,10 @@ vtkSmartPointer<vtkSMProxy> makeReport(vtkSMProxy* beside, const char* name);
 /// Lets a proxy property of a report point at the object of the query.
 void pointAt(vtkSMProxy* report, const char* property, vtkSMProxy* about);
 
+/// Sends a property of a report although it is what it was: on several MPI ranks the query then
+/// holds for the picture that was drawn since.
+void askAnew(vtkSMProxy* report, const char* property);
+
 /// The numbers of an information property, fetched anew.
 std::vector<double> answerOf(vtkSMProxy* report, const char* property);
 

@@ -166,6 +166,7 @@ std::optional<Spot> ViewProbe::spotAt(const glm::dvec2& pixel)
   pointAt(this->Picture, "Representation", display->getProxy());
   const int at[2] = { static_cast<int>(pixel.x), static_cast<int>(pixel.y) };
   vtkSMPropertyHelper(this->Picture, "Pixel").Set(at, 2);
+  askAnew(this->Picture, "Pixel");
   const std::vector<double> tissue = answerOf(this->Picture, "Tissue");
   if (tissue.size() != 7 || tissue[3] == 0.0)
   {

@@ -151,6 +151,12 @@ void setCutUniforms(Program& program, const SceneCuts& cuts)
   {
     program.get()->SetUniform4fv("clipPlanes", planes, cuts.clipPlanes.data());
   }
+  const int sides = static_cast<int>(cuts.partPlanes.size() / 4);
+  program.set("partCount", sides);
+  if (sides > 0)
+  {
+    program.get()->SetUniform4fv("partPlanes", sides, cuts.partPlanes.data());
+  }
   if (cuts.regions)
   {
     program.set("regionLow", glm::vec3(cuts.regionLow));

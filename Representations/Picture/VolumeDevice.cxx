@@ -153,6 +153,7 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
     return false;
   }
   scene.cuts = cutsOf(request.mapper, tissue.values, scene.frame, scene.field);
+  scene.cuts.partPlanes = partPlanesOf(request.part, scene.frame.worldFromTexture);
   scene.blending = blendingFor(request, tissue, this->Tissue.Textures, scene.frame);
   return true;
 }
@@ -175,6 +176,7 @@ bool VolumeDevice::uploadReference(
     gpu.remarks.emplace_back(
       "Only the middle cropping region cuts a reference that is shown alone");
   }
+  scene.cuts.partPlanes = partPlanesOf(request.part, scene.frame.worldFromTexture);
   scene.blending =
     blendingFor(request, request.reference.tissue, this->Reference.Tissue.Textures, scene.frame);
   return true;

@@ -28,6 +28,7 @@ struct VolumeRequest
   bool showsEvidence = false;
   Resection resection;
   double memoryLimitMiB = 0.0; ///< 0: all that the driver gives.
+  std::vector<double> part;    ///< Bounds (mm) of the deformed frame to draw; empty: all of it.
   PictureWish wish;            ///< Position and size are filled in by draw.
 };
 

@@ -116,6 +116,17 @@ SceneCuts cutsOf(vtkVolumeMapper* mapper, const DrawnValues& values, const Scene
   return cuts;
 }
 
+std::vector<float> partPlanesOf(const std::vector<double>& part, const glm::dmat4& worldFromTexture)
+{
+  std::vector<float> planes;
+  if (!part.empty())
+  {
+    clipByBox(
+      { part[0], part[2], part[4] }, { part[1], part[3], part[5] }, worldFromTexture, planes);
+  }
+  return planes;
+}
+
 SceneCuts cutsOfReference(vtkVolumeMapper* mapper, const RayCastScene& reference,
   const DrawnValues& volume, const glm::dmat4& worldFromVolumeTexture, bool& exact)
 {

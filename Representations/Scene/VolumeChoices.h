@@ -29,6 +29,11 @@ int clipPlaneCount(vtkVolumeMapper* mapper);
 SceneCuts cutsOf(vtkVolumeMapper* mapper, const DrawnValues& values, const SceneFrame& frame,
   const SceneField& field);
 
+/// The sides of a part of the deformed frame (bounds, mm; empty: all of it) as
+/// SceneCuts::partPlanes.
+std::vector<float> partPlanesOf(
+  const std::vector<double>& part, const glm::dmat4& worldFromTexture);
+
 /// Fills the scene's cuts for a reference that is drawn in place of the mapper's volume. The
 /// volume's cropping becomes clipping planes. `exact`: false if cropping keeps other regions than
 /// the middle one, which planes cannot express: then it cuts nothing.

@@ -28,7 +28,7 @@ Path pathOf(Ray ray)
   span = clippedSpan(ray, span, stepMm);
   span.x += jitter * startFraction(ivec2(gl_FragCoord.xy)) * stepMm;
   path.span = span;
-  path.samples = presentSamples(ray, span, stepMm);
+  path.samples = samplesInPart(ray, span.x, presentSamples(ray, span, stepMm));
   path.moved = vec2(0.0);
   path.deformed = Track(ray.start + span.x * ray.direction, stepMm * ray.direction);
   path.field = path.deformed;

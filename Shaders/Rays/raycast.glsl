@@ -34,6 +34,27 @@ float evenBelow(float number)
   return 2.0 * floor(0.5 * number);
 }
 
+// The part of the deformed frame that this MPI rank draws: planes as in clipping.glsl. Rays enter
+// and leave it at even samples, as they do in the parts of the other ranks, so each sample is taken
+// once.
+uniform int partCount;
+uniform vec4 partPlanes[6];
+
+// Of samples numbered from t = `first`, those in the part: first, and one past the last.
+vec2 samplesInPart(Ray ray, float first, vec2 samples)
+{
+  for (int i = 0; i < partCount; ++i)
+  {
+    float height = dot(partPlanes[i].xyz, ray.start) + partPlanes[i].w;
+    float slope = dot(partPlanes[i].xyz, ray.direction);
+    float number = evenBelow(ceil((-height / slope - first) / stepMm));
+    samples.x = slope > 0.0 ? max(samples.x, number) : samples.x;
+    samples.y = slope < 0.0 ? min(samples.y, number) : samples.y;
+    samples.y = slope == 0.0 && height < 0.0 ? 0.0 : samples.y;
+  }
+  return samples;
+}
+
 vec3 worldFromDeformed(vec3 deformed)
 {
   return worldFromTexture * deformed + worldOfTextureZero;

@@ -55,6 +55,7 @@ def see(size=SIZE):
 def drawn(found, name, display, view):
     """Adds a picture to the answers, and where the tissue lies under some pixels."""
     import brainshift
+    display.AmbientOcclusion = 0  # ranks that draw parts have none
     found[name] = picture(view)
     picks = [brainshift.pick(display, view, *pixel) for pixel in PIXELS]
     found[name + " picks"] = numpy.array([pick or NOWHERE for pick in picks])
@@ -123,6 +124,34 @@ def answer_letters(found):
     found["letters"] = picture(view)
 
 
+def answer_parts(found):
+    """A larger volume, seen askew, opaque, in parallel, as a projection, from within, and how much
+    of it the first rank has on its card."""
+    import brainshift
+    source = simple.Wavelet(WholeExtent=[-30, 30] * 3)
+    volume = simple.FreeFormDeformation(Input=source)
+    for name, strokes in (("unbent", []), ("bent", brainshift.soft(MIDDLE, (8, 2, 1), 25.0)),
+                          ("far", brainshift.soft(MIDDLE, (30, 10, -10), 80.0))):
+        volume.Strokes = strokes
+        view = view_along((-0.5, 0.3, -1), MIDDLE, 150.0, size=SIZE)
+        display = show_volume(volume, view, "Deformed Volume", COLORS, OPACITIES, array="RTData",
+                              shade=True)
+        display.AmbientOcclusion = 0
+        found[f"large {name}"] = picture(view)
+        found[f"bytes {name}"] = numpy.array([brainshift.gpu(display)["gpuScalarBytes"]])
+    display.ScalarOpacityFunction.Points = [0, 0, 0.5, 0, 200, 0, 0.5, 0, 210, 1, 0.5, 0]
+    found["large opaque"] = picture(view)
+    view.CameraParallelProjection = 1
+    view.CameraParallelScale = 40
+    found["large parallel"] = picture(view)
+    view.CameraParallelProjection = 0
+    display.BlendMode = "Maximum Intensity"  # the first rank draws alone
+    found["large maximum"] = picture(view)
+    display.BlendMode = "Composite"
+    view.CameraPosition, view.CameraFocalPoint = [-20, 8, 15], [30, -9, 2]
+    found["large from within"] = picture(view)
+
+
 def answer_comparison(found):
     compared = simple.CompareVolumes(Input=bent(), Reference=wavelet())
     view = see()
@@ -135,6 +164,10 @@ def answer_stock(found):
     view = see()
     show_volume(wavelet(), view, "Volume", COLORS, OPACITIES, array="RTData", shade=True)
     found["stock"] = picture(view)
+    large = view_along((-0.5, 0.3, -1), MIDDLE, 150.0, size=SIZE)
+    show_volume(simple.Wavelet(WholeExtent=[-30, 30] * 3), large, "Volume", COLORS, OPACITIES,
+                array="RTData", shade=True)
+    found["stock large"] = picture(large)
 
 
 def answer_traces(found):
@@ -194,6 +227,7 @@ def answers(folder=None):
     answer_volume(found)
     answer_looks(found)
     answer_scene(found)
+    answer_parts(found)
     answer_slices(found)
     answer_letters(found)
     answer_comparison(found)

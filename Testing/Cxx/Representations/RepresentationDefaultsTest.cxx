@@ -6,6 +6,7 @@
 #include "vtkDeformedSlicesRepresentation.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkDeformedVolumeReport.h"
+#include "vtkDeformedVolumeRepresentation.h"
 #include "vtkTracePointsRepresentation.h"
 
 #include <vtkNew.h>
@@ -52,12 +53,14 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
 
 TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
 {
+  vtkNew<vtkDeformedVolumeRepresentation> representation;
   vtkNew<vtkDeformedVolumeMapper> mapper;
   const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } },
     { "EmptySpaceSkipping", { double(mapper->GetEmptySpaceSkipping()) } },
     { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
     { "AmbientOcclusion", { mapper->GetAmbientOcclusion() } },
     { "OcclusionRadius", { mapper->GetOcclusionRadius() } },
+    { "RankHalo", { representation->GetRankHalo() } },
     { "KeepPicture", { double(mapper->GetKeepPicture()) } },
     { "CountSamples", { double(mapper->GetCountSamples()) } },
     { "MemoryLimit", { mapper->GetMemoryLimit() } },

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Which part of a bent volume each of several MPI ranks draws, and which voxels it needs for that.
+///
+/// The deformed frame is cut into boxes, one for each rank. Boxes have an order in depth from any
+/// eye; bent blocks of the rest frame have none.
+#ifndef BrainShift_RankParts_h
+#define BrainShift_RankParts_h
+
+#include "Common/Grid.h"
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
+#include <array>
+#include <vector>
+
+namespace brainshift
+{
+struct Lattice;
+
+/// Least and greatest x, y and z, mm, world axes.
+using Box = std::array<double, 6>;
+
+/// First and last point along x, y and z, as VTK counts them.
+using Extent = std::array<int, 6>;
+
+/// A volume of which ranks hold parts.
+struct WholeVolume
+{
+  Grid grid; ///< Of all points; its origin is the first point of `extent`.
+  Extent extent{ 0, -1, 0, -1, 0, -1 };
+};
+
+/**
+ * Cuts a box into one for each rank. Each cut goes across the longest side, and divides it as it
+ * divides the ranks.
+ */
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> rankParts(const Box& whole, int ranks);
+
+/**
+ * Where the tissue rests that can come into a part of the deformed frame: an extent within that of
+ * the volume, of two points a side at least. It holds the neighbours that interpolation and
+ * gradients read.
+ *
+ * @param lattice   the deformation; null: nothing moves
+ * @param haloMm    is added to every side, mm
+ */
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT Extent restExtent(
+  const WholeVolume& volume, const Lattice* lattice, const Box& part, double haloMm);
+
+/// Whether an extent holds all of another.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool holds(const Extent& extent, const Extent& other);
+}
+
+#endif

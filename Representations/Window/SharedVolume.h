@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// The voxels that each of several MPI ranks draws.
+#ifndef BrainShift_SharedVolume_h
+#define BrainShift_SharedVolume_h
+
+#include "Representations/Window/RankParts.h"
+
+#include "vtkImageData.h" // for its smart pointer
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+class vtkDataArray;
+class vtkMultiProcessController;
+
+namespace brainshift
+{
+/**
+ * Gives each MPI rank the voxels that it wants of those that all ranks hold. Only voxels that
+ * changed or are wanted anew are sent, so a stroke sends none. What the volume carries as field
+ * data, such as its deformation, is whole on each rank.
+ *
+ * The pipeline is not asked for other voxels than ParaView asks for: a reader would read its file
+ * again whenever the requests of two consumers take turns.
+ */
+class SharedVolume
+{
+public:
+  /**
+   * The whole volume, from the first rank that holds some of it. All ranks must call it together.
+   *
+   * @param part    this rank's part of the volume; null: none
+   * @param whole   the whole extent
+   */
+  static WholeVolume wholeOf(
+    vtkMultiProcessController* ranks, vtkImageData* part, const Extent& whole);
+
+  /**
+   * Exchanges voxels. All ranks must call it together.
+   *
+   * @param part     this rank's part of the volume; null: none
+   * @param whole    what wholeOf returned
+   * @param wanted   this rank's extent; empty: none
+   * @return the wanted extent, or an image without points; points that no part holds are 0
+   */
+  vtkSmartPointer<vtkImageData> share(vtkMultiProcessController* ranks, vtkImageData* part,
+    const WholeVolume& whole, const Extent& wanted);
+
+private:
+  struct Known
+  {
+    const vtkDataArray* array;
+    vtkMTimeType time; // unique among all objects
+    bool operator==(const Known& o) const { return array == o.array && time == o.time; }
+  };
+
+  bool changed(vtkImageData* part, const Extent& whole, const Extent& wanted);
+  void exchange(vtkMultiProcessController* ranks, vtkImageData* part, const Extent& wanted);
+
+  std::vector<Known> Arrays;            // of this rank's part, as sent last
+  std::vector<int> Extents;             // of this rank's part, of the whole, and wanted
+  vtkSmartPointer<vtkImageData> Voxels; // of the wanted extent
+};
+}
+
+#endif

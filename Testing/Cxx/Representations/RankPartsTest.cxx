@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that the parts of ranks fill the space once, and that a rank has all voxels whose tissue
+// can come into its part, for both kernels, oblique axes, a mask and strokes at the border.
+#include "Representations/Window/RankParts.h"
+
+#include "Filters/Deformation/Lattice.h"
+#include "Filters/Deformation/PointMap.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace brainshift;
+
+namespace
+{
+double sizeOf(const Box& box)
+{
+  return (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+}
+
+bool isIn(const Box& box, const glm::dvec3& place)
+{
+  return box[0] <= place.x && place.x < box[1] && box[2] <= place.y && place.y < box[3] &&
+    box[4] <= place.z && place.z < box[5];
+}
+
+// An oblique volume of 60 x 50 x 40 points whose extent begins at 5, -3, 2.
+WholeVolume obliqueVolume()
+{
+  WholeVolume volume;
+  volume.extent = { 5, 64, -3, 46, 2, 41 };
+  volume.grid.dimensions = { 60, 50, 40 };
+  volume.grid.spacing = { 1.0, 1.5, 2.0 };
+  volume.grid.origin = { -30.0, 20.0, 7.0 };
+  volume.grid.direction =
+    glm::dmat3(glm::rotate(glm::dmat4(1.0), 0.4, glm::normalize(glm::dvec3(1, 2, 3))));
+  return volume;
+}
+
+// A lattice over the volume, with random displacements of up to `most` mm.
+Lattice latticeOver(const WholeVolume& volume, int kernel, double most)
+{
+  Grid grid = volume.grid;
+  grid.dimensions = { 9, 8, 7 };
+  grid.spacing =
+    volume.grid.spacing * glm::dvec3(volume.grid.dimensions - 1) / glm::dvec3(grid.dimensions - 1);
+  Lattice lattice = makeLattice(grid, kernel);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> length(-1.0f, 1.0f);
+  for (auto& displacement : lattice.displacements)
+  {
+    displacement = float(most) * glm::vec3(length(random), length(random), length(random));
+  }
+  return lattice;
+}
+
+Box boundsOf(const WholeVolume& volume, double more)
+{
+  Box box{ 1e9, -1e9, 1e9, -1e9, 1e9, -1e9 };
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 world =
+      volume.grid.worldFromGrid(side * glm::dvec3(volume.grid.dimensions - 1));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      box[2 * axis] = std::min(box[2 * axis], world[axis] - more);
+      box[2 * axis + 1] = std::max(box[2 * axis + 1], world[axis] + more);
+    }
+  }
+  return box;
+}
+}
+
+TEST(RankParts, FillTheSpaceOnce)
+{
+  const Box whole{ -10, 30, 5, 25, 0, 90 };
+  std::mt19937 random(3);
+  for (const int ranks : { 1, 2, 3, 4, 7, 8 })
+  {
+    const std::vector<Box> parts = rankParts(whole, ranks);
+    ASSERT_EQ(int(parts.size()), ranks);
+    double size = 0.0;
+    for (const Box& part : parts)
+    {
+      EXPECT_NEAR(sizeOf(part), sizeOf(whole) / ranks, 1e-6) << ranks;
+      size += sizeOf(part);
+    }
+    EXPECT_NEAR(size, sizeOf(whole), 1e-6);
+    for (int i = 0; i < 1000; ++i)
+    {
+      const glm::dvec3 place(std::uniform_real_distribution<>(-10, 30)(random),
+        std::uniform_real_distribution<>(5, 25)(random),
+        std::uniform_real_distribution<>(0, 90)(random));
+      int owners = 0;
+      for (const Box& part : parts)
+      {
+        owners += isIn(part, place);
+      }
+      EXPECT_EQ(owners, 1) << ranks;
+    }
+  }
+}
+
+TEST(RankParts, HaveAllTissueThatComesIntoThem)
+{
+  const WholeVolume volume = obliqueVolume();
+  for (const int kernel : { 0, 1 })
+  {
+    for (const double most : { 0.0, 3.0, 12.0 })
+    {
+      const Lattice lattice = latticeOver(volume, kernel, most);
+      const std::vector<Box> parts = rankParts(boundsOf(volume, 2.0 * most + 1.0), 4);
+      std::mt19937 random(5);
+      std::uniform_real_distribution<> fraction(0.0, 1.0);
+      for (int i = 0; i < 4000; ++i)
+      {
+        const glm::dvec3 voxel =
+          glm::floor(glm::dvec3(fraction(random), fraction(random), fraction(random)) *
+            glm::dvec3(volume.grid.dimensions));
+        const glm::dvec3 rest = volume.grid.worldFromGrid(voxel);
+        const glm::dvec3 deformed = rest + displacementOfTissue(lattice, rest);
+        for (const Box& part : parts)
+        {
+          if (!isIn(part, deformed))
+          {
+            continue;
+          }
+          const Extent extent = restExtent(volume, &lattice, part, 0.0);
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            const double at = voxel[axis] + volume.extent[2 * axis];
+            // Its neighbours are there, too, but beyond the volume.
+            EXPECT_LE(extent[2 * axis], std::max(at - 2.0, double(volume.extent[2 * axis])));
+            EXPECT_GE(
+              extent[2 * axis + 1], std::min(at + 2.0, double(volume.extent[2 * axis + 1])));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(RankParts, NeedLittleMoreThanTheirOwn)
+{
+  WholeVolume volume = obliqueVolume();
+  volume.grid.direction = glm::dmat3(1.0);
+  const Box part{ -30.0, -10.0, 20.0, 50.0, 7.0, 27.0 };
+  const Extent still = restExtent(volume, nullptr, part, 0.0);
+  EXPECT_EQ(still, (Extent{ 5, 28, -3, 20, 2, 15 }));
+  EXPECT_EQ(restExtent(volume, nullptr, part, 4.0), (Extent{ 5, 32, -3, 23, 2, 17 }));
+
+  // A stroke far away asks for no voxel.
+  Lattice lattice = latticeOver(volume, 1, 0.0);
+  lattice.displacements[lattice.grid.offset(8, 7, 6)] = glm::vec3(-3.0f, 0.0f, 0.0f);
+  EXPECT_EQ(restExtent(volume, &lattice, part, 0.0), still);
+  lattice.displacements[lattice.grid.offset(2, 2, 2)] = glm::vec3(-3.0f, 0.0f, 0.0f);
+  EXPECT_EQ(restExtent(volume, &lattice, part, 0.0), (Extent{ 5, 31, -3, 20, 2, 15 }));
+}
+
+TEST(RankParts, BeyondTheVolumeHaveItsNearestVoxels)
+{
+  const WholeVolume volume = obliqueVolume();
+  const Box far{ 1000, 1010, 1000, 1010, 1000, 1010 };
+  const Extent extent = restExtent(volume, nullptr, far, 0.0);
+  EXPECT_TRUE(holds(volume.extent, extent));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_EQ(extent[2 * axis + 1] - extent[2 * axis], 1);
+  }
+  EXPECT_FALSE(holds(extent, volume.extent));
+}
