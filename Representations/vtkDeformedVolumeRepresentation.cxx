@@ -107,6 +107,10 @@ void vtkDeformedVolumeRepresentation::SetMemoryLimit(double limit)
 
 void vtkDeformedVolumeRepresentation::SetComparison(int comparison)
 {
+  if (comparison != this->GetDeformedVolumeMapper()->GetComparison())
+  {
+    this->MarkModified(); // MPI ranks may draw it in another way
+  }
   this->GetDeformedVolumeMapper()->SetComparison(comparison);
 }
 
@@ -206,12 +210,11 @@ void vtkDeformedVolumeRepresentation::CoverPointSelection(vtkObject* caller, uns
   }
 }
 
-// Ranks blend what they drew from front to back, which is right for these two modes alone. Two
-// colours hide each other in another way.
+// Ranks blend what they drew from front to back, which is right for these two modes alone.
 bool vtkDeformedVolumeRepresentation::CanDrawParts() const
 {
   const int blend = this->VolumeMapper->GetBlendMode();
-  return !this->VolumeMapper->GetCropping() && !this->ComparesInColors() &&
+  return !this->VolumeMapper->GetCropping() &&
     (blend == vtkVolumeMapper::COMPOSITE_BLEND || blend == vtkVolumeMapper::ISOSURFACE_BLEND);
 }
 

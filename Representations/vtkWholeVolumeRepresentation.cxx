@@ -87,11 +87,15 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
     // First the data of this process, then that of all. The superclass finds both done and only
     // hands the data to the view.
     brainshift::FailedUpdate failed(this, request);
+    if (request == vtkPVView::REQUEST_UPDATE())
+    {
+      this->ChooseWhoDraws(vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW())));
+    }
     if (request == vtkPVView::REQUEST_UPDATE() &&
       // NOLINTNEXTLINE(bugprone-parent-virtual-call): without the delivery of the class between
       this->vtkVolumeRepresentation::ProcessViewRequest(request, input, output))
     {
-      this->ShareOut(vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW())));
+      this->ShareOut();
     }
     failed.end();
     const int result = this->Superclass::ProcessViewRequest(request, input, output);
@@ -154,20 +158,31 @@ bool vtkWholeVolumeRepresentation::IsAloneIn(vtkPVRenderView* view) const
   return view && this->Actor->GetMatrix()->IsIdentity();
 }
 
+// A client comes here, too: it and the server agree on what changed, or the view keeps what it has.
+void vtkWholeVolumeRepresentation::ChooseWhoDraws(vtkPVRenderView* view)
+{
+  const bool mayDrawPart = this->CanDrawParts() && this->IsAloneIn(view);
+  if (mayDrawPart != this->MayDrawPart)
+  {
+    this->MayDrawPart = mayDrawPart;
+    this->MarkModified();
+  }
+}
+
 // Every rank comes here for every update, even if its pipeline has failed: the others wait for it.
-void vtkWholeVolumeRepresentation::ShareOut(vtkPVRenderView* view)
+void vtkWholeVolumeRepresentation::ShareOut()
 {
   vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
   if (!ranks || ranks->GetNumberOfProcesses() == 1)
   {
     return;
   }
-  const bool drawsPart =
-    !isTrueOnAny(!this->Part || !this->CanDrawParts() || !this->IsAloneIn(view));
-  if (!isTrueOnAny(this->IsNew || drawsPart != this->DrawsPart))
+  if (!isTrueOnAny(this->IsNew))
   {
     return;
   }
+  const bool drawsPart =
+    !isTrueOnAny(!this->Part || !this->MayDrawPart || this->ComparesInColors());
   this->IsNew = false;
   this->DrawsPart = drawsPart;
   brainshift::Extent all{};

@@ -92,7 +92,8 @@ private:
   /** Draws only a part of the deformed frame. Null: all of it. */
   virtual void SetDrawnPart(const double*) {}
 
-  void ShareOut(vtkPVRenderView* view);
+  void ChooseWhoDraws(vtkPVRenderView* view);
+  void ShareOut();
   std::array<double, 6> OwnPart(const brainshift::WholeVolume& whole);
   std::array<double, 6> WholeBounds(const brainshift::WholeVolume& whole);
   void WidenBounds();
@@ -105,6 +106,7 @@ private:
   vtkSmartPointer<vtkImageData> Part; // of this process
   bool IsNew = false;                 // the part, since voxels were shared out
   bool IsDrawnElsewhere = false;
+  bool MayDrawPart = false;  // as far as settings and the view say
   bool DrawsPart = false;    // of several ranks
   double RankHalo = 10.0;    // mm
   std::array<int, 6> Wanted; // extent of voxels to draw

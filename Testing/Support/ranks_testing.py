@@ -145,9 +145,9 @@ def answer_parts(found):
     view.CameraParallelScale = 40
     found["large parallel"] = picture(view)
     view.CameraParallelProjection = 0
-    display.BlendMode = "Maximum Intensity"  # the first rank draws alone
+    display.BlendMode = 1  # maximum: the first rank draws alone
     found["large maximum"] = picture(view)
-    display.BlendMode = "Composite"
+    display.BlendMode = 0
     view.CameraPosition, view.CameraFocalPoint = [-20, 8, 15], [30, -9, 2]
     found["large from within"] = picture(view)
 
@@ -156,6 +156,9 @@ def answer_comparison(found):
     compared = simple.CompareVolumes(Input=bent(), Reference=wavelet())
     view = see()
     display = show_volume(compared, view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
+    display.VolumeComparison = 0
+    found["no comparison"] = picture(view)
+    display.VolumeComparison = 1
     drawn(found, "red and green", display, view)
 
 
