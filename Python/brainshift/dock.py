@@ -13,6 +13,7 @@ from .cases import Case
 from .casesources import POINT_ROLES
 from .points import read_from
 from .roles import ROLES, holds_both, paired, proposed
+from .scenes import turn_to_opening
 
 #: What a role is called in the window, and what it is.
 _ROLES = {
@@ -59,13 +60,13 @@ def _case():
     from paraview import servermanager
 
     connection = servermanager.ActiveConnection
-    case = _in_hand["case"] if _in_hand["connection"] is connection else None
-    known = _cases()
+    if _in_hand["connection"] is not connection:
+        _in_hand.update(case=None, connection=connection, known={})
+    case, known = _in_hand["case"], _cases()
     if known and case not in (*known, _in_hand["new"]):  # as after an undo
         case = _in_hand["former"] if _in_hand["former"] in known else known[0]
     case = case or Case()
-    _in_hand["known"][case.name] = case
-    _in_hand.update(case=case, connection=connection)
+    _in_hand["known"][case.name] = _in_hand["case"] = case
     return case
 
 
@@ -128,11 +129,11 @@ def _told_settings(case):
 
 
 def _told_steps(case):
-    steps = [step._asdict() for step in case.steps]
+    doubtful = case.doubtful()
+    steps = [{**step._asdict(), "doubtful": step.name in doubtful} for step in case.steps]
     missing = [role for role in ("tumour", "cavity") if getattr(case, role) is None]
     lacks = ", ".join(filter(None, [case.lacks_bent(), *(f"a {role}" for role in missing)]))
-    found = repr(case.resection).removeprefix("Resection: ") if case.resection else ""
-    steps.append(_step("Tumour left", lacks, found))
+    steps.append(_step("Tumour left", lacks, case._left))
     steps.append(_step("Report", case.lacks_bent(), case.reported))
     steps.append(_step("Moments", *_found_moments(case)))
     return steps
@@ -219,14 +220,14 @@ def _guessed_sphere(case):
 
 
 def _look_first(case, anew=False):
-    """Shows the bent volume where nothing shows it yet, and lets the tools act on it. `anew`: with
-    the look that fits now, also where it is shown."""
+    """Shows the bent volume where nothing shows it yet, in place of other cases, and lets the tools
+    act on it. `anew`: with the look that fits now, also where it is shown."""
     from paraview import simple
 
     view = simple.GetActiveViewOrCreate("RenderView")
     if anew or not any(_is_shown(case.part(part), view) for part in ("bent", "resected")):
         case.show(view)
-    case.hide_other_moments(view)
+    case.hide_others(view, _cases())
     simple.SetActiveSource(case.bent)
 
 
@@ -272,8 +273,11 @@ def _measure(case):
 
 def _run(case, step, **settings):
     if step == "Tumour left":
+        from paraview import simple
+
         case.resect()
         case.show_resection()
+        turn_to_opening(case, simple.GetActiveView())
     elif step == "Moments":
         case.show_moments()
     elif step == "Report":
@@ -304,10 +308,10 @@ def _accept(case, roles):
 
 
 def _select(case, name):
-    """Takes another case in hand. Another moment of the same surgery is then shown."""
+    """Takes another case in hand, and shows it."""
     chosen = next((each for each in _cases() if each.name == name), case)
     _in_hand["case"] = chosen
-    if chosen != case and chosen in case.moments:
+    if chosen != case and chosen.bent is not None:
         _look_first(chosen)
 
 
