@@ -10,9 +10,9 @@ import os
 import traceback
 
 from .cases import Case
-from .casesources import POINT_ROLES
+from .casesources import OPENED, POINT_ROLES, free_name, sources, stem
 from .points import read_from
-from .roles import ROLES, holds_both, paired, proposed
+from .roles import ROLES, ending, holds_both, paired, proposed
 from .scenes import turn_to_opening
 
 #: What a role is called in the window, and what it is.
@@ -62,12 +62,26 @@ def _case():
     connection = servermanager.ActiveConnection
     if _in_hand["connection"] is not connection:
         _in_hand.update(case=None, connection=connection, known={})
+    _name_again()
     case, known = _in_hand["case"], _cases()
     if known and case not in (*known, _in_hand["new"]):  # as after an undo
         case = _in_hand["former"] if _in_hand["former"] in known else known[0]
     case = case or Case()
     _in_hand["known"][case.name] = _in_hand["case"] = case
     return case
+
+
+def _name_again():
+    """Gives sources that a case opened their names back: ParaView's dialog that loads a state calls
+    them by their files, colin_T1w colin_T..w.nii.gz."""
+    from paraview import simple
+
+    for source in sources():
+        path = getattr(source, "FileName", None) or ""
+        path = path if isinstance(path, str) else path[0]
+        if (source.SMProxy.HasAnnotation(OPENED) and ending(path)
+                and _name(source).lower().endswith(ending(path))):
+            simple.RenameSource(free_name(stem(source)), source)
 
 
 def _source(number):
@@ -102,12 +116,10 @@ def _may_have(case, source, role):
 def _told_roles(case):
     """Of each role: name, label, tip, the number of its source or 0, and the sources that may have
     it: pairs of number and name."""
-    from paraview import simple
-
-    sources = list(simple.GetSources().values())
+    present = sources()
     for role, (label, tip) in _ROLES.items():
         chosen = case.part(role)
-        choices = [source for source in sources
+        choices = [source for source in present
                    if source == chosen or _may_have(case, source, role)]
         yield {"role": role, "label": label, "tip": tip, "chosen": _number(chosen),
                "choices": [[_number(source), _name(source)] for source in choices]}

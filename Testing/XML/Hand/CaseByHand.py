@@ -265,7 +265,9 @@ def the_tumour_that_is_left_is_shown():
     assert resected in shown() and second().bent not in shown(), shown()
     view = simple.GetActiveView()
     towards = numpy.subtract(view.CameraPosition, view.CameraFocalPoint)
-    outwards = numpy.subtract(read_from(second().electrodes).positions.mean(axis=0), MIDDLE)
+    with window.unrecorded():
+        contacts = read_from(second().electrodes).positions
+    outwards = contacts.mean(axis=0) - MIDDLE
     assert towards @ outwards > 0.99 * numpy.linalg.norm(towards) * numpy.linalg.norm(outwards)
     undo("Tumour left")
     assert simple.FindSource("sub-1_T1w resection") is None and second().bent in shown(), shown()
@@ -327,6 +329,8 @@ def a_state_brings_the_dock_back():
     assert chosen("Brain") == "a mask" and hand.is_visible("BrainShiftCaseSphere")
     again = all_texts()
     assert again == told, [pair for pair in zip(again, told) if pair[0] != pair[1]]
+    simple.RenameSource("sub-1_T..w.nii.gz", brainshift.Case.all()[0].volume)  # as the dialog does
+    window.until(lambda: chosen("Volume") == "sub-1_T1w", "the name that it had")
 
 
 window.main("CaseByHand", [
