@@ -49,6 +49,9 @@ Users usersOf(vtkSMProxy* colors, pqDataRepresentation* asking)
 {
   Users users = Users::None;
   auto model = serverManagerModel();
+  vtkSMProxy* atRest = isDeformation(sourceOf(asking))
+    ? vtkSMPropertyHelper(sourceOf(asking)->getProxy(), "Input").GetAsProxy()
+    : nullptr;
   for (auto display : model->findItems<pqDataRepresentation*>())
   {
     if (display == asking || display->getLookupTableProxy() != colors)
@@ -56,7 +59,7 @@ Users usersOf(vtkSMProxy* colors, pqDataRepresentation* asking)
       continue;
     }
     if (isMadeOf(sourceOf(display), sourceOf(asking)) ||
-      isMadeOf(sourceOf(asking), sourceOf(display)))
+      isMadeOf(sourceOf(asking), sourceOf(display)) || isBentFrom(sourceOf(display), atRest))
     {
       return Users::Related;
     }

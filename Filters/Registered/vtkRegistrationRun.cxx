@@ -17,6 +17,7 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <array>
 #include <iomanip>
 #include <sstream>
 
@@ -41,8 +42,9 @@ struct vtkRegistrationRun::Running
   std::unique_ptr<Refinement> Best;
   std::unique_ptr<Verification> BestChecks;
   int Rounds = 0;
-  Elsewhere AtFirst; // of the first result
-  Elsewhere Brought; // the same, if a later result is kept
+  int OtherSteps = 0; // of the rounds that Elastic did not make
+  Elsewhere AtFirst;  // of the first result
+  Elsewhere Brought;  // the same, if a later result is kept
 
   void BeginChecks();
   void FinishChecks();
@@ -60,6 +62,9 @@ constexpr double FarthestShiftMm = 24.0;
 constexpr double FarthestDegrees = 17.0;
 
 constexpr int MostRounds = 2; // that go on from where parts belong
+
+// The progress at the end of each round. Few refinements go on; the others end early.
+constexpr std::array<double, MostRounds + 1> RoundEnds{ 0.8, 0.92, 1.0 };
 
 constexpr double RegistrationPart = 0.8; // of the progress; the rest are the checks
 
@@ -112,6 +117,7 @@ void vtkRegistrationRun::Running::FinishChecks()
   const Elsewhere found = this->Checks->elsewhere();
   if (this->Best && found.ml >= this->BestChecks->elsewhere().ml)
   {
+    this->OtherSteps += this->Elastic->progress().steps - this->Best->progress().steps;
     this->Elastic = std::move(this->Best);
     this->Checks = std::move(this->BestChecks);
     this->Rounds = MostRounds + 1;
@@ -128,6 +134,7 @@ void vtkRegistrationRun::Running::FinishChecks()
   ++this->Rounds;
   if (found.ml > 0.0 && this->Rounds <= MostRounds)
   {
+    this->OtherSteps += this->Elastic->progress().steps;
     this->Best = std::move(this->Elastic);
     this->BestChecks = std::move(this->Checks);
     this->Elastic =
@@ -147,7 +154,12 @@ double vtkRegistrationRun::Running::Done() const
   const double done = this->Rigid ? this->Rigid->progress().done : this->Elastic->progress().done;
   const double part = RegistrationPart * done +
     (1.0 - RegistrationPart) * (this->Checks ? this->Checks->done() : 0.0);
-  return (this->Rounds + part) / (this->Rounds + 1);
+  if (this->Rigid || !this->Plan.check.blocks.make || this->Rounds > MostRounds)
+  {
+    return part;
+  }
+  const double begin = this->Rounds > 0 ? RoundEnds.at(this->Rounds - 1) : 0.0;
+  return begin + part * (RoundEnds.at(this->Rounds) - begin);
 }
 
 vtkRegistrationRun::vtkRegistrationRun()
@@ -401,13 +413,16 @@ void vtkRegistrationRun::ReportAlignment()
 void vtkRegistrationRun::ReportRefinement()
 {
   const RefinementProgress& at = this->Internal->Elastic->progress();
-  this->Steps = at.steps;
-  this->Level = at.level;
-  this->Overlap = at.overlap;
-  this->Cost = at.cost;
-  this->CostBefore = at.costAtStart;
-  this->LongestMove = at.movedMm;
-  this->StepFraction = at.stepFraction;
+  this->Steps = this->Internal->OtherSteps + at.steps;
+  if (at.steps > 0 || this->Internal->OtherSteps == 0) // else it went on and compared nothing yet
+  {
+    this->Level = at.level;
+    this->Overlap = at.overlap;
+    this->Cost = at.cost;
+    this->CostBefore = at.costAtStart;
+    this->LongestMove = at.movedMm;
+    this->StepFraction = at.stepFraction;
+  }
   double sum = 0.0;
   this->LargestChange = 0.0;
   const std::vector<glm::vec3>& now = this->Internal->Elastic->lattice().displacements;
@@ -418,7 +433,7 @@ void vtkRegistrationRun::ReportRefinement()
     sum += change;
   }
   this->MeanChange = sum / static_cast<double>(std::max<std::size_t>(1, now.size()));
-  if (this->Steps > 0 && !(this->Overlap > 0.0)) // also rejects NaN
+  if (at.steps > 0 && !(this->Overlap > 0.0)) // also rejects NaN
   {
     this->Refusal = "The volume and the reference do not overlap" + this->Internal->Outside;
   }
@@ -427,7 +442,7 @@ void vtkRegistrationRun::ReportRefinement()
     this->Warn("The cost is higher than before the refinement: " + rounded(this->Cost, 3) +
       " instead of " + rounded(this->CostBefore, 3) + "; undo it.");
   }
-  if (this->Steps > 0 && this->Overlap < Alignment::LeastOverlap)
+  if (at.steps > 0 && this->Overlap < Alignment::LeastOverlap)
   {
     this->Warn("Only " + percentText(this->Overlap) + " of " + this->OverlapOf +
       " has a partner in the reference; at least " + percentText(Alignment::LeastOverlap) +

@@ -54,7 +54,7 @@ std::vector<CommandRow> windowRows()
       QT_TRANSLATE_NOOP("BrainShift",
         "While a pointer is connected: record a trace as long as the key is held down.")),
     byKey(Command::ShowCase, Scope::Window, { Qt::ALT | Qt::Key_0 },
-      QT_TRANSLATE_NOOP("BrainShift", "Show the dock Case. Press the key again to hide it.")),
+      QT_TRANSLATE_NOOP("BrainShift", "Go to the dock Case. Press the key there to hide it.")),
     byKey(Command::Undo, Scope::Window, { Qt::CTRL | Qt::Key_Z },
       QT_TRANSLATE_NOOP("BrainShift", "Undo the last edit. Each stroke is one edit.")),
     byKey(Command::Redo, Scope::Window, { Qt::CTRL | Qt::Key_Y },

@@ -18,6 +18,8 @@
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
 
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QScopedValueRollback>
 #include <QStringList>
 
@@ -393,11 +395,22 @@ void RefineEditor::putResult()
     }
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", deformation);
     this->putIn(lattice, this->Points);
+    lattice->SetAnnotation("BrainShift.Refined", this->found().constData());
   }
   vtkSMProxy* proxy = this->Source->getProxy();
   vtkSMSourceProxy::SafeDownCast(proxy)->UpdatePipeline();
   proxy->UpdatePropertyInformation(proxy->GetProperty("MinimumJacobian"));
   this->Figures.smallestDeterminant = vtkSMPropertyHelper(proxy, "MinimumJacobian").GetAsDouble();
+}
+
+// For registering.py, also once a state brings the lattice back.
+QByteArray RefineEditor::found() const
+{
+  const RefineFigures& at = this->Figures;
+  const QJsonObject told{ { "steps", at.steps }, { "finished", at.done >= 1.0 },
+    { "cost", at.cost }, { "before", at.costBefore }, { "trust", at.trust },
+    { "warning", at.warning } };
+  return QJsonDocument(told).toJson(QJsonDocument::Compact);
 }
 
 void RefineEditor::restore()

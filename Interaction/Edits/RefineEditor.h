@@ -83,6 +83,7 @@ protected:
   void takeStep() override;
   void keep(State end) override;
   void putResult() override;
+  QByteArray found() const;
   void restore() override;
   void release() override;
   bool dependsOn(vtkObject* proxy, const char* property) const override;

@@ -83,14 +83,16 @@ private:
   std::optional<std::pair<glm::dvec3, glm::dvec3>> Plane; // a point of it, unit normal
 };
 
+// Neither the volume at rest nor another of its deformations: landmarks were not measured there.
 bool showsOtherVolume(pqPipelineSource* deformation, pqRenderView* view)
 {
+  vtkSMProxy* atRest = vtkSMPropertyHelper(deformation->getProxy(), "Input").GetAsProxy();
   for (pqRepresentation* representation : view->getRepresentations())
   {
     auto display = qobject_cast<pqDataRepresentation*>(representation);
     if (display && display->isVisible() && (showsSlices(display) || showsVolume(display)) &&
-      vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy() !=
-        vtkSMPropertyHelper(deformation->getProxy(), "Input").GetAsProxy())
+      vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy() != atRest &&
+      !isBentFrom(display->getInput(), atRest))
     {
       return true;
     }

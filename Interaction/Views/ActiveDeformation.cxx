@@ -185,6 +185,21 @@ pqPipelineSource* deformationUpstream(pqPipelineSource* source)
   return nullptr;
 }
 
+bool isBentFrom(pqPipelineSource* source, vtkSMProxy* volume)
+{
+  QList<pqPipelineSource*> visited{ source };
+  for (int next = 0; next < visited.size(); ++next)
+  {
+    if (isDeformation(visited[next]) && volume &&
+      vtkSMPropertyHelper(visited[next]->getProxy(), "Input").GetAsProxy() == volume)
+    {
+      return true;
+    }
+    visited += inputsOf(visited[next]);
+  }
+  return false;
+}
+
 pqPipelineSource* shownInstead(pqPipelineSource* deformation, pqView* view)
 {
   if (!deformation || bentDisplay(deformation, view))

@@ -37,6 +37,9 @@ pqPipelineSource* activeDeformation();
 /// The nearest Free-Form Deformation among what a source is made of. Null if there is none.
 pqPipelineSource* deformationUpstream(pqPipelineSource* source);
 
+/// Whether a source is a volume as a Free-Form Deformation bends it, or is made of that.
+bool isBentFrom(pqPipelineSource* source, vtkSMProxy* volume);
+
 /// The representation (Deformed Volume or Deformed Slices) with which a view shows a Free-Form
 /// Deformation, or shows what a filter like Compare Volumes made of it. Null if there is none.
 pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view);

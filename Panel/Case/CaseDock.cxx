@@ -21,10 +21,12 @@
 #include <pqFileDialog.h>
 #include <pqPipelineSource.h>
 #include <pqSettings.h>
+#include <pqView.h>
 
 #include <vtkPVSession.h>
 
 #include <QAction>
+#include <QApplication>
 #include <QComboBox>
 #include <QDragEnterEvent>
 #include <QDropEvent>
@@ -158,10 +160,25 @@ void CaseDock::remember()
 
 void CaseDock::toggle()
 {
-  const bool isInFront = this->isVisible() && !this->visibleRegion().isEmpty();
-  this->setVisible(!isInFront);
+  this->showInFront(!this->isInFront());
+}
+
+void CaseDock::toggleByKey()
+{
+  const QWidget* keyboard = QApplication::focusWidget();
+  this->showInFront(!this->isInFront() || !keyboard || !this->isAncestorOf(keyboard));
+}
+
+bool CaseDock::isInFront() const
+{
+  return this->isVisible() && !this->visibleRegion().isEmpty(); // not behind another tab
+}
+
+void CaseDock::showInFront(bool on)
+{
+  this->setVisible(on);
   this->remember();
-  if (!isInFront)
+  if (on)
   {
     this->comeToFront();
     this->Boxes[Roles.front()]->setFocus(Qt::ShortcutFocusReason);
@@ -280,19 +297,35 @@ void CaseDock::addSteps(QVBoxLayout* layout)
   this->Problem->setWordWrap(true);
   this->Problem->setTextFormat(Qt::PlainText);
   this->Problem->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  QPalette palette = this->palette();
-  palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette, false));
-  this->Problem->setPalette(palette);
   layout->addWidget(this->Problem);
   QVBoxLayout* group = addGroup(layout, tr("Steps"));
   this->Steps = new StepRows;
   group->addWidget(this->Steps);
   this->connect(this->Steps, &StepRows::pressed, this, &CaseDock::run);
   this->addSettings(layout);
-  auto note = new QLabel(tr("Research software, not a medical device."));
-  note->setWordWrap(true);
-  note->setEnabled(false);
-  layout->addWidget(note);
+  this->Note = new QLabel(tr("Research software, not a medical device."));
+  this->Note->setWordWrap(true);
+  layout->addWidget(this->Note);
+  this->paint();
+}
+
+void CaseDock::paint()
+{
+  QPalette palette = this->palette();
+  const QColor quiet = quietColor(palette);
+  palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette, false));
+  this->Problem->setPalette(palette);
+  palette.setColor(QPalette::WindowText, quiet);
+  this->Note->setPalette(palette);
+}
+
+void CaseDock::changeEvent(QEvent* event)
+{
+  QDockWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && this->Note)
+  {
+    this->paint();
+  }
 }
 
 void CaseDock::addSettings(QVBoxLayout* layout)
@@ -395,6 +428,10 @@ void CaseDock::runByHand()
     properties->show();
     properties->raise();
   }
+  if (pqView* view = pqActiveObjects::instance().activeView())
+  {
+    view->widget()->setFocus(Qt::OtherFocusReason); // else a button behind the panel had it
+  }
 }
 
 void CaseDock::runRefine()
@@ -466,7 +503,7 @@ void CaseDock::showState()
   this->Cases->setVisible(this->Cases->count() > 1);
 }
 
-// What only the editor knows: the progress of a run, its checks, and why it failed.
+// What only the editor knows: the progress of a run, and why it failed.
 void CaseDock::showRefine()
 {
   RefineEditor* editor = RefineEditor::of(this->Orders->bent());
@@ -486,20 +523,10 @@ void CaseDock::showRefine()
     return;
   }
   const QJsonValue step = this->Orders->told()["steps"][StepOfRefine];
-  if (!step["lacks"].toString().isEmpty())
+  const QString text = editor->problem().isEmpty() ? step["found"].toString() : editor->problem();
+  if (step["lacks"].toString().isEmpty())
   {
-    return;
+    this->Steps->showInstead("Refine", text, tr("Refine"));
   }
-  const bool wasKept =
-    step["state"] == "done" && editor->state() != LiveRun::State::Idle && figures.steps > 0;
-  QStringList lines{ editor->problem() };
-  if (wasKept)
-  {
-    lines += refineResult(
-      editor->state() == LiveRun::State::Kept ? tr("Stopped") : tr("Finished"), figures);
-    lines += refineWarning(figures);
-  }
-  lines.removeAll(QString());
-  this->Steps->showInstead("Refine", lines.join(' '), tr("Refine"));
 }
 }

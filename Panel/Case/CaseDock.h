@@ -32,12 +32,15 @@ public:
 
   /// Shows the dock at the front, or hides it if it is there.
   void toggle();
+  /// Gives the dock the keyboard, at the front, or hides it if it has the keyboard.
+  void toggleByKey();
   /// Proposes roles for files, or those of one folder, and takes them over if the user agrees.
   void propose(const QStringList& paths);
 
 protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
 private:
   void addCases(QVBoxLayout* layout);
@@ -54,6 +57,9 @@ private:
   void runByHand();
   void runRefine();
   void writeTo(const QString& step);
+  bool isInFront() const;
+  void showInFront(bool on);
+  void paint(); ///< Gives texts the colours of the palette.
   void showState();
   void showRefine();
   void choose(const QString& role, const QJsonObject& what);
@@ -67,6 +73,7 @@ private:
   CaseSettings* Settings = nullptr;
   StepRows* Steps = nullptr;
   QLabel* Problem = nullptr;
+  QLabel* Note = nullptr;
   bool IsRoomy = false; ///< whether it has got more of the window's height
 };
 }

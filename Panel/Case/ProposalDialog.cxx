@@ -82,8 +82,10 @@ ProposalDialog::ProposalDialog(QWidget* parent, const QJsonArray& proposal, cons
     this->Table->setCellWidget(row, RoleColumn, box);
   }
   this->Table->resizeColumnsToContents();
-  this->Table->horizontalHeader()->setStretchLastSection(true);
-  this->Table->resizeRowsToContents();
+  QHeaderView* header = this->Table->horizontalHeader();
+  header->setSectionResizeMode(ReasonColumn, QHeaderView::Stretch); // a long one takes more lines
+  this->connect(
+    header, &QHeaderView::sectionResized, this->Table, &QTableWidget::resizeRowsToContents);
   this->Problem = new QLabel;
   this->Problem->setObjectName("BrainShiftProposalProblem");
   this->Problem->setWordWrap(true);

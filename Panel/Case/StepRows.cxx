@@ -4,11 +4,14 @@
 #include "Interaction/Commands/Application.h"
 #include "Panel/Parts/Advice.h"
 
+#include <QEvent>
 #include <QGridLayout>
 #include <QJsonArray>
 #include <QJsonObject>
 #include <QLabel>
 #include <QPushButton>
+
+#include <utility>
 
 namespace brainshift
 {
@@ -138,15 +141,41 @@ void StepRows::show(const QJsonArray& told)
     const bool isDone = step["state"].toString() == "done";
     row.button->setText(wordsOf(step["name"].toString()).label);
     row.button->setEnabled(lacks.isEmpty());
-    row.sign->setText(isDone ? QString(QChar(0x2713)) : QString());
-    QPalette palette = this->palette();
-    palette.setColor(QPalette::WindowText, gradeColor(Grade::Good, palette, false));
-    row.sign->setPalette(palette);
+    row.isDoubtful = step["doubtful"].toBool();
+    row.sign->setText(!isDone ? QString() : row.isDoubtful ? "!" : QString(QChar(0x2713)));
+    row.sign->setToolTip(
+      row.isDoubtful ? StepRows::tr("Doubtful: read what it found.") : QString());
     row.text->setText(
       lacks.isEmpty() ? step["found"].toString() : StepRows::tr("Needs %1").arg(lacks));
-    row.text->setEnabled(lacks.isEmpty());
+    row.lacks = !lacks.isEmpty();
+    this->paint(row);
     fitHeight(row.text);
     row.button->setAccessibleDescription(row.text->text());
+  }
+}
+
+// The text is not disabled where something is missing: then nobody could read what.
+void StepRows::paint(const Row& row)
+{
+  QPalette palette = this->palette();
+  const QColor quiet = quietColor(palette);
+  const QColor found = palette.color(QPalette::WindowText);
+  const Grade grade = row.isDoubtful ? Grade::Bad : Grade::Good;
+  palette.setColor(QPalette::WindowText, gradeColor(grade, palette, false));
+  row.sign->setPalette(palette);
+  palette.setColor(QPalette::WindowText, row.lacks ? quiet : found);
+  row.text->setPalette(palette);
+}
+
+void StepRows::changeEvent(QEvent* event)
+{
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange)
+  {
+    for (const Row& row : std::as_const(this->Rows))
+    {
+      this->paint(row);
+    }
   }
 }
 
@@ -154,7 +183,8 @@ void StepRows::showInstead(const QString& step, const QString& text, const QStri
 {
   Row& row = this->row(step);
   row.text->setText(text);
-  row.text->setEnabled(true);
+  row.lacks = false;
+  this->paint(row);
   fitHeight(row.text);
   row.button->setAccessibleDescription(text);
   row.button->setText(button);

@@ -30,14 +30,20 @@ Q_SIGNALS:
   /// The user pressed the button of a step.
   void pressed(const QString& step);
 
+protected:
+  void changeEvent(QEvent* event) override;
+
 private:
   struct Row
   {
     QPushButton* button = nullptr;
     QLabel* sign = nullptr;
     QLabel* text = nullptr;
+    bool lacks = false;      ///< whether something is missing
+    bool isDoubtful = false; ///< whether what it found may be wrong
   };
   Row& row(const QString& step);
+  void paint(const Row& row);
 
   QGridLayout* Grid;
   QMap<QString, Row> Rows;

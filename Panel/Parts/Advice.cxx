@@ -13,6 +13,7 @@ constexpr double LeastAmount = 0.05;     // mm; less is shown as 0.0
 constexpr double DoubtfulReach = 0.8;    // fraction of the amount
 constexpr double DoubtfulJacobian = 0.3; // few users want to compress tissue to less than a third
 constexpr double LeastPercent = 0.01;    // less is not shown as 0 %, which folds
+constexpr float QuietShare = 0.7F;       // of the colour of text; the rest is the window's
 constexpr double Rounding = 0.01;        // percent; the determinant of no stroke is a bound below 1
 }
 
@@ -120,5 +121,14 @@ QColor gradeColor(Grade grade, const QPalette& palette, bool blueAndOrange)
       break;
   }
   return dark ? QColor(120, 215, 140) : QColor(20, 110, 50);
+}
+
+QColor quietColor(const QPalette& palette)
+{
+  const QColor text = palette.color(QPalette::Active, QPalette::WindowText);
+  const QColor window = palette.color(QPalette::Active, QPalette::Window);
+  const auto mixed = [](float of, float with) { return QuietShare * of + (1 - QuietShare) * with; };
+  return QColor::fromRgbF(mixed(text.redF(), window.redF()), mixed(text.greenF(), window.greenF()),
+    mixed(text.blueF(), window.blueF()));
 }
 }

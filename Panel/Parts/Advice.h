@@ -43,6 +43,8 @@ QString jacobianTip(double determinant);
 /// A colour that is legible on the window colour of a palette, light or dark: green, amber or red,
 /// or else blue, the colour of text, or orange.
 QColor gradeColor(Grade grade, const QPalette& palette, bool blueAndOrange);
+/// A colour for text that matters less. Unlike that of disabled text it is legible.
+QColor quietColor(const QPalette& palette);
 }
 
 #endif

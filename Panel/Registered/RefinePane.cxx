@@ -134,6 +134,9 @@ QString refineProgress(const RefineFigures& figures)
     (figures.isChecking ? " " + checkingText() : QString());
 }
 
+namespace
+{
+// What came of it. `ended`: how, as the beginning of a sentence.
 QString refineResult(const QString& ended, const RefineFigures& figures)
 {
   QStringList lines;
@@ -157,6 +160,7 @@ QString refineResult(const QString& ended, const RefineFigures& figures)
   return lines.join(' ');
 }
 
+// What the user must check of the result; empty if nothing.
 QString refineWarning(const RefineFigures& figures)
 {
   QStringList lines;
@@ -172,6 +176,7 @@ QString refineWarning(const RefineFigures& figures)
                .arg(figure(*figures.smallestDeterminant));
   }
   return lines.join(' ');
+}
 }
 
 RefinePane::RefinePane(pqPipelineSource* deformation, QWidget* parent)

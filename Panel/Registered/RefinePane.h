@@ -24,14 +24,8 @@ class LandmarkErrors;
 class RefineEditor;
 struct RefineFigures;
 
-// Figures of a refinement in sentences.
-
-/// How far a refinement is that runs.
+/// How far a refinement is that runs, in a sentence.
 QString refineProgress(const RefineFigures& figures);
-/// What came of it. `ended`: how, as the beginning of a sentence.
-QString refineResult(const QString& ended, const RefineFigures& figures);
-/// What the user must check of the result; empty if nothing.
-QString refineWarning(const RefineFigures& figures);
 
 class RefinePane : public QWidget
 {

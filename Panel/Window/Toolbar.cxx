@@ -21,6 +21,7 @@
 
 #include <QDockWidget>
 #include <QMainWindow>
+#include <QShortcut>
 #include <QStatusBar>
 #include <QToolButton>
 
@@ -160,11 +161,19 @@ void Toolbar::addCase()
     tr("Case: show or hide the dock with the files of a patient and the steps from "
        "there to a report (%1).")
       .arg(keysText(rowOf(Command::ShowCase))));
-  action->setShortcut(shortcutOf(Command::ShowCase));
-  this->connect(action, &QAction::triggered, this, [this] {
-    if (auto dock = pqCoreUtilities::mainWidget()->findChild<CaseDock*>())
+  const auto dock = [] { return pqCoreUtilities::mainWidget()->findChild<CaseDock*>(); };
+  this->connect(action, &QAction::triggered, this, [dock] {
+    if (CaseDock* found = dock())
     {
-      dock->toggle();
+      found->toggle();
+    }
+  });
+  // Not the action's: who presses the key in a view wants to go on in the dock that is there.
+  auto key = new QShortcut(shortcutOf(Command::ShowCase), pqCoreUtilities::mainWidget());
+  this->connect(key, &QShortcut::activated, this, [dock] {
+    if (CaseDock* found = dock())
+    {
+      found->toggleByKey();
     }
   });
 }

@@ -7,8 +7,8 @@ import uuid
 
 from .arguments import positive, vector
 from .casesources import (
-    MARK, OPENED, SETTING, free_name, inputs_of, kept, marks, opened, require_kind, settings_at,
-    sources, stem, values_of)
+    MARK, OPENED, RESULT, SETTING, digest_of, free_name, inputs_of, kept, marks, opened,
+    require_kind, settings_at, sources, stem, values_of)
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
 from .grids import shapes_of
@@ -58,10 +58,11 @@ class _Setting:
 
 
 class _Result:
-    """A result that a case forgets as soon as what it was found from is another."""
+    """A result that a case forgets as soon as what it was found from is another. State files keep
+    texts and lists of them."""
 
-    def __init__(self, default):
-        self.default = default
+    def __init__(self, default, lasts=True):
+        self.default, self.lasts = default, lasts
 
     def __set_name__(self, owner, name):
         self.name = name
@@ -69,11 +70,20 @@ class _Result:
     def __get__(self, case, kind=None):
         if case is None:
             return self
-        state, value = case._results.get(self.name, (None, None))
-        return value if state is not None and state == case._state() else self.default
+        now = case._state()
+        state, value = case._results.get(self.name, (now if self.lasts else None, self.default))
+        if state != now or not self.lasts or case.bent is None:
+            return value if state == now else self.default
+        told = case.bent.SMProxy.GetAnnotation(RESULT + self.name)
+        state, value = json.loads(told) if told else (None, None)
+        return value if state == digest_of(now) else self.default
 
     def __set__(self, case, value):
-        case._results[self.name] = case._state(), value
+        now = case._state()
+        case._results[self.name] = now, value
+        if self.lasts and case.bent is not None:
+            case.bent.SMProxy.SetAnnotation(
+                RESULT + self.name, json.dumps([digest_of(now), value]))
 
 
 def _labels(name, values):
@@ -156,8 +166,8 @@ class Case(Steps, Moments, TimedTraces, Resections):
     tumour_labels = _Setting([], _labels)
     cavity_labels = _Setting([], _labels)
     landmarks_judge = _Setting(False, lambda name, value: bool(value))
-    resection, judged = _Result(None), _Result(None)
-    exported, reported = _Result(()), _Result("")
+    resection, judged = _Result(None, lasts=False), _Result(None)
+    exported, reported, _left = _Result(()), _Result(""), _Result("")  # the last of resect
 
     def __init__(self, **roles):
         unknown = sorted(set(roles) - set(ROLES))

@@ -2,16 +2,18 @@
 """Sources of the pipeline as a case sees them: their marks, names, kinds and inputs."""
 
 import functools
+import hashlib
 import itertools
 import json
 import os
 
 from .roles import ending, open_file
 
-#: Annotations of proxies, which state files keep: `MARK` + role + "." + name of the case, `SETTING`
-#: + name, at the Free-Form Deformation, a setting as JSON, and `OPENED` is at sources that a case
-#: opened itself.
+#: Annotations of proxies, which state files keep: `MARK` + role + "." + name of the case; at the
+#: Free-Form Deformation `SETTING` + name, a setting as JSON, and `RESULT` + name, a result and the
+#: state of the case that it is of; `OPENED` at sources that a case opened itself.
 MARK, SETTING, OPENED = "BrainShift.Case.", "BrainShift.CaseSetting.", "BrainShift.CaseOpened"
+RESULT = "BrainShift.CaseResult."
 
 #: Roles that points have. All others are volumes.
 POINT_ROLES = ("traces", "landmarks", "measured", "electrodes")
@@ -117,6 +119,18 @@ def values_of(source):
                      for i in range(own.GetNumberOfProxies())]
         found.append((name, str(value)))
     return found
+
+
+def digest_of(state):
+    """A text for a state of a case, the same once a state file brought it back, if no file was
+    written since: `values_of` sources first, which have other numbers then, and anything else."""
+    sources_of, *others = state
+    files = [value for values in sources_of for name, value in values[1:] if name == "FileName"]
+    written = [os.stat(file).st_mtime_ns for file in files if os.path.exists(file)]
+    text = repr([values[1:] for values in sources_of] + others + written)
+    for i, values in enumerate(sources_of):
+        text = text.replace(f"'{values[0]}'", f"'#{i}'")
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def kept(function):

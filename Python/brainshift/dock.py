@@ -10,9 +10,10 @@ import os
 import traceback
 
 from .cases import Case
-from .casesources import POINT_ROLES
+from .casesources import OPENED, POINT_ROLES, free_name, sources, stem
 from .points import read_from
-from .roles import ROLES, holds_both, paired, proposed
+from .roles import ROLES, ending, holds_both, paired, proposed
+from .scenes import turn_to_opening
 
 #: What a role is called in the window, and what it is.
 _ROLES = {
@@ -59,14 +60,28 @@ def _case():
     from paraview import servermanager
 
     connection = servermanager.ActiveConnection
-    case = _in_hand["case"] if _in_hand["connection"] is connection else None
-    known = _cases()
+    if _in_hand["connection"] is not connection:
+        _in_hand.update(case=None, connection=connection, known={})
+    _name_again()
+    case, known = _in_hand["case"], _cases()
     if known and case not in (*known, _in_hand["new"]):  # as after an undo
         case = _in_hand["former"] if _in_hand["former"] in known else known[0]
     case = case or Case()
-    _in_hand["known"][case.name] = case
-    _in_hand.update(case=case, connection=connection)
+    _in_hand["known"][case.name] = _in_hand["case"] = case
     return case
+
+
+def _name_again():
+    """Gives sources that a case opened their names back: ParaView's dialog that loads a state calls
+    them by their files, colin_T1w colin_T..w.nii.gz."""
+    from paraview import simple
+
+    for source in sources():
+        path = getattr(source, "FileName", None) or ""
+        path = path if isinstance(path, str) else path[0]
+        if (source.SMProxy.HasAnnotation(OPENED) and ending(path)
+                and _name(source).lower().endswith(ending(path))):
+            simple.RenameSource(free_name(stem(source)), source)
 
 
 def _source(number):
@@ -101,12 +116,10 @@ def _may_have(case, source, role):
 def _told_roles(case):
     """Of each role: name, label, tip, the number of its source or 0, and the sources that may have
     it: pairs of number and name."""
-    from paraview import simple
-
-    sources = list(simple.GetSources().values())
+    present = sources()
     for role, (label, tip) in _ROLES.items():
         chosen = case.part(role)
-        choices = [source for source in sources
+        choices = [source for source in present
                    if source == chosen or _may_have(case, source, role)]
         yield {"role": role, "label": label, "tip": tip, "chosen": _number(chosen),
                "choices": [[_number(source), _name(source)] for source in choices]}
@@ -130,11 +143,11 @@ def _told_settings(case):
 
 
 def _told_steps(case):
-    steps = [step._asdict() for step in case.steps]
+    doubtful = case.doubtful()
+    steps = [{**step._asdict(), "doubtful": step.name in doubtful} for step in case.steps]
     missing = [role for role in ("tumour", "cavity") if getattr(case, role) is None]
     lacks = ", ".join(filter(None, [case.lacks_bent(), *(f"a {role}" for role in missing)]))
-    found = repr(case.resection).removeprefix("Resection: ") if case.resection else ""
-    steps.append(_step("Tumour left", lacks, found))
+    steps.append(_step("Tumour left", lacks, case._left))
     steps.append(_step("Report", case.lacks_bent(), case.reported))
     steps.append(_step("Moments", *_found_moments(case)))
     return steps
@@ -231,14 +244,14 @@ def _guessed_sphere(case):
 
 
 def _look_first(case, anew=False):
-    """Shows the bent volume where nothing shows it yet, and lets the tools act on it. `anew`: with
-    the look that fits now, also where it is shown."""
+    """Shows the bent volume where nothing shows it yet, in place of other cases, and lets the tools
+    act on it. `anew`: with the look that fits now, also where it is shown."""
     from paraview import simple
 
     view = simple.GetActiveViewOrCreate("RenderView")
     if anew or not any(_is_shown(case.part(part), view) for part in ("bent", "resected")):
         case.show(view)
-    case.hide_other_moments(view)
+    case.hide_others(view, _cases())
     simple.SetActiveSource(case.bent)
 
 
@@ -284,8 +297,11 @@ def _measure(case):
 
 def _run(case, step, **settings):
     if step == "Tumour left":
+        from paraview import simple
+
         case.resect()
         case.show_resection()
+        turn_to_opening(case, simple.GetActiveView())
     elif step == "Moments":
         case.show_moments()
     elif step == "Report":
@@ -316,10 +332,10 @@ def _accept(case, roles):
 
 
 def _select(case, name):
-    """Takes another case in hand. Another moment of the same surgery is then shown."""
+    """Takes another case in hand, and shows it."""
     chosen = next((each for each in _cases() if each.name == name), case)
     _in_hand["case"] = chosen
-    if chosen != case and chosen in case.moments:
+    if chosen != case and chosen.bent is not None:
         _look_first(chosen)
 
 

@@ -134,11 +134,15 @@ class Moments:
 
     def hide_other_moments(self, view):
         """Hide the other moments in a render view, with their points and comparisons."""
+        self.hide_others(view, self.moments)
+
+    def hide_others(self, view, cases):
+        """Hide other cases in a render view, with their points, comparisons and moments."""
         from paraview import simple
 
         own = [self.part(part) for part in _SHOWN]
-        others = [case.part(part) for case in self.moments if case != self for part in _SHOWN]
-        for source in [self.part("moments"), *others]:
+        for source in (case.part(part) for case in cases if case != self
+                       for part in (*_SHOWN, "moments")):
             if source is not None and source not in own:
                 simple.Hide(source, view)
 

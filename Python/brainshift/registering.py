@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Aligns a reference and refines a deformation by the intensities of both volumes."""
 
+import json
+
 from .fitting import forget_former, is_kind, own
 from .reports import numbers
 
 _MOST_STARTS = 64
+
+#: Annotation of a Refined Lattice, as RefineEditor.cxx writes it, too: what made it, as JSON.
+REFINED = "BrainShift.Refined"
 
 
 def _new_run(session):
@@ -74,10 +79,8 @@ class _Run:
             for name, figure in result.FIGURES.items():
                 setattr(result, name, self.figure(figure))
             result.finished = bool(self.figure("Finished"))
-            # A call may have tried a length of a step only, or prepared a level. Steps begin at 0
-            # again where a refinement goes on.
-            stop = (callback is not None and result.steps not in (0, taken)
-                    and callback(result) is False)
+            # A call may have tried a length of a step only, or prepared a level.
+            stop = (callback is not None and result.steps != taken and callback(result) is False)
             taken = result.steps
         self.proxy.UpdatePropertyInformation()
         result.trust = self.figure("Trust")
@@ -113,6 +116,13 @@ def _warn(result):
         warnings.warn(" ".join(result.warnings), stacklevel=3)
 
 
+def refined_by(lattice):
+    """What made a Refined Lattice, also once a state brought it back: a dict of `steps`,
+    `finished`, `cost`, `before`, `trust` and `warning`. Empty for any other source."""
+    told = lattice.SMProxy.GetAnnotation(REFINED) if is_kind(lattice, "RefinedLattice") else None
+    return json.loads(told) if told else {}
+
+
 def _check_text(result):
     return ("finished" if result.finished else "stopped") + f", {result.trust}"
 
@@ -129,6 +139,7 @@ class Alignment:
     - `shift`, `turn`: distance and angle of this motion, mm and degrees. `align` is tested for
       starts up to 20 mm and 15 degrees away.
     - `steps`, `level`: number of searched lines, and the level of the pyramid, from 0 on
+    - `done`: the progress, 0 to 1
     - `finished`: False if the callback stopped it
     - `trust`: how far the result may be trusted, by checks of itself: "good", "doubtful" or
       "failed", or "unchecked" if the callback stopped it or too little was compared
@@ -138,7 +149,7 @@ class Alignment:
     """
 
     #: Attributes, and the properties of the run with their values.
-    FIGURES = {"compared": "Overlap", "information": "Information",
+    FIGURES = {"compared": "Overlap", "done": "Done", "information": "Information",
                "information_before": "InformationBefore", "level": "Level", "shift": "Shift",
                "steps": "Steps", "turn": "Rotation"}
 
@@ -166,6 +177,7 @@ class Refinement:
       ultrasound, of the tissue inside the ultrasound fan
     - `moved`: the longest displacement of a control point in the last step
     - `steps`, `level`: number of steps, and the level of the pyramid, from 0 on
+    - `done`: the progress, 0 to 1
     - `finished`: False if the callback stopped it
     - `trust`: how far the result may be trusted, by checks of itself: "good", "doubtful" or
       "failed", or "unchecked" if the callback stopped it or too little was compared
@@ -176,8 +188,9 @@ class Refinement:
 
     #: Attributes, and the properties of the run with their values.
     FIGURES = {"compared": "Overlap", "disagreement": "Cost", "disagreement_before": "CostBefore",
-               "largest_change": "LargestChange", "level": "Level", "mean_change": "MeanChange",
-               "moved": "LongestMove", "share": "StepFraction", "steps": "Steps"}
+               "done": "Done", "largest_change": "LargestChange", "level": "Level",
+               "mean_change": "MeanChange", "moved": "LongestMove", "share": "StepFraction",
+               "steps": "Steps"}
 
     finished = False
     trust = "unchecked"
@@ -326,6 +339,10 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
         simple.SetActiveSource(active)
     result.strokes = tuple(filter.Strokes)
     result.filter = _hold(filter, run.numbers("ControlPoints"))
+    result.filter.SMProxy.SetAnnotation(REFINED, json.dumps({
+        "steps": result.steps, "finished": result.finished, "cost": result.disagreement,
+        "before": result.disagreement_before, "trust": result.trust,
+        "warning": " ".join(result.warnings)}))
     result.smallest_determinant = filter.GetPropertyValue("MinimumJacobian")
     simple.SetActiveSource(active)
     _warn(result)

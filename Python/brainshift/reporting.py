@@ -13,6 +13,7 @@ from .figures import _strength_kept, _versions
 from .files import figures_of
 from .fitting import Fit
 from .maps import rest_from_deformed
+from .registering import refined_by
 from .roles import ROLES, ending
 
 NOTICE = "Research software, not for clinical use."
@@ -61,7 +62,12 @@ figcaption { font-size: 0.85rem; color: var(--soft); margin-top: 0.25rem; }
 @media (max-width: 40rem) { .two, .three { grid-template-columns: 1fr; } }
 @page { size: A4; margin: 16mm 14mm; }
 @media print { body { padding: 0; max-width: none; font-size: 10pt; } h2 { margin-top: 1.2rem; }
-  .tile b { font-size: 1.15rem; } .tiles { grid-template-columns: repeat(4, 1fr); } }
+  .tile b { font-size: 1.15rem; }
+  .tiles { grid-template-columns: repeat(auto-fit, minmax(9rem, 1fr)); }
+  th, td { padding-top: 0.25rem; padding-bottom: 0.25rem; }
+  tbody tr:first-child { break-after: avoid; } tbody tr:last-child { break-before: avoid; }
+  .two { width: 74%; } .three { width: 84%; } /* or pages end with large gaps */
+  figure { margin-bottom: 0.4rem; } }
 """
 
 
@@ -69,6 +75,8 @@ figcaption { font-size: 0.85rem; color: var(--soft); margin-top: 0.25rem; }
 
 
 def _number(value):
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     return f"{value:.2f}" if isinstance(value, float) else str(value)
 
 
@@ -193,6 +201,8 @@ def _warnings(case, fit):
     if case.comparison is not None:
         warning = figures_of(case.comparison).GetPropertyValue("Warning")
         found += [warning] if warning else []
+    if refined_by(bent.Lattice).get("warning"):
+        found.append(refined_by(bent.Lattice)["warning"])
     if fit is not None and fit.share < 1.0:
         found.append(f"The fold guard applied {100 * fit.share:.0f} % of the fit.")
     if float(bent.MinimumJacobian) < 0.1:

@@ -337,6 +337,7 @@ class Resections:
         self.resection = resect(
             self.bent, self.tumour, self.cavity, tumour_labels=self.tumour_labels,
             cavity_labels=self.cavity_labels, compare=self.comparison, **settings)
+        self._left = repr(self.resection).removeprefix("Resection: ")
         return self.resection
 
     @kept

@@ -32,7 +32,7 @@ _VOLUME_WORDS = (
     ("brain", "brain brainmask bet skullstrip mask parenchyma"),
     ("reference", "post postop postoperative intraop intraoperative ius us ioct after during "
                   "reference followup"),
-    ("volume", "pre preop preoperative before mr mri flair ct head anat mprage"))
+    ("volume", "pre preop preoperative before mr mri t1 t1w t2 t2w flair ct head anat mprage"))
 
 #: Beginnings of words of columns: of landmarks at rest, and of measured ones.
 _REST_WORDS = ("rest", "pre", "before", "fixed")
@@ -44,6 +44,9 @@ _MEASURED_FILES = ("measured post postop postoperative intraop intraoperative du
 
 #: Files beside the data that have no role.
 _ASIDE = ("coordsystem", "dataset_description", "participants", "manifest", "channels", "events")
+
+#: How the reason begins if a name says the role.
+_BY_NAME = "its name has the word"
 
 #: Ends of the volume (ml) of a brain, and the most different values that a label map has.
 _BRAIN_ML = (600.0, 2200.0)
@@ -61,8 +64,10 @@ def ending(path):
 
 def _words(path):
     name = os.path.basename(path)
-    name = re.sub(r"([a-z])([A-Z])", r"\1 \2", name[:len(name) - len(ending(path))])
-    return [word.lower() for word in re.split(r"[^A-Za-z]+", name) if word]
+    name = name[:len(name) - len(ending(path))]
+    weighted = re.findall(r"(?:^|[^A-Za-z0-9])([Tt][12][Ww]?)(?=[^A-Za-z0-9]|$)", name)
+    parts = re.split(r"[^A-Za-z]+", re.sub(r"([a-z])([A-Z])", r"\1 \2", name))
+    return [word.lower() for word in [*parts, *weighted] if word]
 
 
 def _by_words(path, table):
@@ -71,7 +76,7 @@ def _by_words(path, table):
     for role, known in table:
         found = next((word for word in words if word in known.split()), None)
         if found:
-            return role, f"its name has the word {found}"
+            return role, f"{_BY_NAME} {found}"
     return None, ""
 
 
@@ -224,24 +229,29 @@ def _role_of(path):
     return (role, reason) if role else _labels_role(path)
 
 
+def _may_have_role(path):
+    name = os.path.basename(os.path.normpath(path))
+    is_aside = any(word in name.lower() for word in _ASIDE)
+    return not (name.startswith(".") or is_aside) and (ending(path) or _is_series(path))
+
+
 def proposed(paths):
     """What each of some files may be: a list of Proposed, the role None where nothing says one.
 
-    A role is given once, to the first file in the order of names; `reason` says what spoke for it,
-    or who has the role already. `paths`: a folder, whose files count, or a list of files and
-    folders of DICOM.
+    A role is given once, to the first file in the order of names, and rather by a name than by
+    values; `reason` says what spoke for it, or who has the role already.
+
+    - `paths`: a folder, whose files count, or a list of files and folders of DICOM
     """
     if isinstance(paths, str):
         paths = [paths]
     if len(paths) == 1 and os.path.isdir(paths[0]) and not _is_series(paths[0]):
         paths = [os.path.join(paths[0], name) for name in os.listdir(paths[0])]
     found, taken = [], {}
-    for path in sorted(paths):
+    said = {path: _role_of(path) for path in sorted(paths) if _may_have_role(path)}
+    for path, (role, reason) in sorted(
+            said.items(), key=lambda one: not one[1][1].startswith(_BY_NAME)):
         name = os.path.basename(os.path.normpath(path))
-        is_aside = any(word in name.lower() for word in _ASIDE)
-        if name.startswith(".") or is_aside or not (ending(path) or _is_series(path)):
-            continue
-        role, reason = _role_of(path)
         if role == "volume" and "volume" in taken and "grey" in reason:
             role, reason = "reference", "it is the second volume with grey values"
         if role in taken:
@@ -249,7 +259,7 @@ def proposed(paths):
         if role:
             taken[role] = name
         found.append(Proposed(role, path, reason or "nothing says what it is"))
-    return found
+    return sorted(found, key=lambda one: one.file)
 
 
 def open_file(path, **properties):

@@ -20,6 +20,7 @@ _COVER = 0.6
 _TRACE_COLORS = (-1, 0.48, 0, 0.75, -0.25, 0.75, 0.35, 1, 0, 1, 1, 1,
                  0.25, 0.2, 0.85, 0.3, 1, 0, 0.5, 0.1)
 _TRACE_SCALE_MM = 6.0
+_POINT_PIXELS = 10.0  # in a picture 760 pixels wide, which is 67 mm wide in print
 
 
 def _hidden_view():
@@ -121,6 +122,16 @@ def _outwards(case):
     return numpy.array(ball[0]) - middle if ball else numpy.zeros(3)
 
 
+def turn_to_opening(case, view):
+    """Looks at the volume from the side of the measured points or the opening, if it is known."""
+    from paraview import simple
+
+    outwards = _outwards(case)
+    if outwards.any():
+        _aim_at(view, outwards)
+        simple.Render(view)
+
+
 def _middle(source):
     bounds = source.GetDataInformation().GetBounds()
     return [(low + high) / 2 for low, high in zip(bounds[0::2], bounds[1::2])]
@@ -153,6 +164,7 @@ def traces(case, size):
         _aim_at(view, _outwards(case))
         for measure in measures:
             points = simple.Show(measure, view)
+            points.PointSize, points.RenderPointsAsSpheres = _POINT_PIXELS, 1
             simple.ColorBy(points, ("POINTS", "DistanceToCortex"), separate=True)
             color = simple.GetColorTransferFunction("DistanceToCortex", points, separate=True)
             color.ColorSpace, color.RGBPoints = "RGB", _TRACE_COLORS

@@ -6,6 +6,7 @@ import os
 
 from .files import figures_of, reason_of
 from .fitting import Fit, is_kind
+from .registering import refined_by
 
 STEPS = ("Look", "Measure", "Fit", "By hand", "Refine", "Judge", "Export")
 
@@ -19,6 +20,9 @@ Step.__doc__ = """A step of a case.
 """
 
 _NUMBERS_PER_STROKE = 14
+
+_TRUST = {"good": "Its checks found no fault.", "doubtful": "The result is doubtful.",
+          "failed": "The result failed its checks.", "unchecked": "The result was not checked."}
 
 
 class Steps:
@@ -156,8 +160,25 @@ class Steps:
         if not is_kind(self.bent.Lattice, "RefinedLattice"):
             return "", ""
         bent = figures_of(self.bent)
-        return "", (f"largest displacement {bent.MaximumDisplacement:.1f} mm, smallest Jacobian "
-                    f"determinant {bent.MinimumJacobian:.2f}")
+        found = (f"largest displacement {bent.MaximumDisplacement:.1f} mm, smallest Jacobian "
+                 f"determinant {bent.MinimumJacobian:.2f}")
+        by = refined_by(self.bent.Lattice)
+        if by:
+            found += (f"; {'finished' if by['finished'] else 'stopped'} after {by['steps']} steps, "
+                      f"cost {by['before']:.3f} before, {by['cost']:.3f} now (0: the volumes "
+                      f"match). {_TRUST[by['trust']]} {by['warning']}").rstrip()
+        return "", found
+
+    def doubtful(self):
+        """The names of the steps that may have found something wrong: what they found says why."""
+        names = {"Measure", "Fit"} if self._cavity_doubt() else set()
+        grids = self.part("at_rest")
+        if grids is not None and grids.GetPropertyValue("Warning") and not self.fits_landmarks():
+            names.add("Fit")
+        by = refined_by(self.bent.Lattice) if self.bent is not None else {}
+        if by.get("trust") in ("doubtful", "failed") or by.get("warning"):
+            names.add("Refine")
+        return names
 
     def _step_judge(self):
         if not all(self.landmarks or (None,)) or self.lacks_bent():

@@ -356,6 +356,24 @@ TEST_HAND_EXPORT int test_hand_type(const char* name, const char* text)
   return 0;
 }
 
+// Gives the view the keyboard, as a click in it does.
+TEST_HAND_EXPORT void test_hand_focus()
+{
+  if (QWidget* view = viewWidget())
+  {
+    view->window()->activateWindow();
+    QApplication::setActiveWindow(view->window()); // without a window manager nobody else does
+    view->setFocus();
+  }
+}
+
+TEST_HAND_EXPORT int test_hand_has_focus()
+{
+  const QWidget* view = viewWidget();
+  const QWidget* keyboard = view ? view->window()->focusWidget() : nullptr;
+  return keyboard && (keyboard == view || view->isAncestorOf(keyboard)) ? 1 : 0;
+}
+
 // A click of the mouse on a button, by its object name, while the view has the keyboard's focus.
 // Returns whether the view still has it.
 TEST_HAND_EXPORT int test_hand_keeps_focus(const char* name)

@@ -272,6 +272,16 @@ def remake_window():
     wait(100)
 
 
+def focus():
+    """Gives the view the keyboard, as a click in it does."""
+    _library.test_hand_focus()
+
+
+def has_focus():
+    """Whether the view has the keyboard."""
+    return bool(_library.test_hand_has_focus())
+
+
 def keeps_focus(name):
     """Clicks a button of the window with the mouse; whether the view keeps the keyboard."""
     return bool(_library.test_hand_keeps_focus(name.encode()))

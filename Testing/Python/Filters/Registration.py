@@ -422,12 +422,12 @@ class SunkBrain:
         assert moves.sum() > 500
         self.points, self.expected = points[moves], expected[moves]
 
-    def refined(self, name, **inputs):
+    def refined(self, name, callback=None, **inputs):
         """How far off (mm, mean and largest) a refinement ends, and what it found."""
         bent = simple.FreeFormDeformation(Input=self.head, **inputs)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            found = brainshift.refine(bent, self.reference)
+            found = brainshift.refine(bent, self.reference, callback=callback)
         moved = brainshift.deformed_from_rest(bent, self.points)
         off = numpy.linalg.norm(moved - self.expected, axis=1)
         print(f"{name}: off by {off.mean():.2f} mm in the mean, {off.max():.2f} mm at most, "
@@ -445,7 +445,12 @@ def test_bone_does_not_hold_a_brain_that_sank():
 
 
 def test_what_bone_holds_without_a_mask_is_brought_and_said():
-    mean, largest, found = SunkBrain().refined("no mask")
+    seen = []
+    mean, largest, found = SunkBrain().refined(
+        "no mask", lambda at: seen.append((at.steps, at.done)))
+    steps, done = zip(*seen)
+    assert steps == tuple(range(1, found.steps + 1)), steps
+    assert all(earlier < later <= 1.0 for earlier, later in zip(done, done[1:])), done
     assert mean < 1.6 and found.trust == "doubtful", (mean, largest, found.trust)
     assert any("matched better elsewhere" in reason for reason in found.warnings), found.warnings
 

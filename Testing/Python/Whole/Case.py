@@ -65,6 +65,12 @@ def test_a_name_that_says_nothing_is_sorted_by_content():
     proposal = brainshift.Case.from_folder(scratch("plain")).proposal
     assert [each.role for each in proposal[:2]] == [None, "volume"], proposal
     assert_says(proposal[0].reason, "tumor", "postop")
+    shutil.copy(path("sub-1_T1w.nii.gz"), scratch("plain/x_T1w.nii.gz"))
+    found = {os.path.basename(each.file): each for each in
+             brainshift.Case.from_folder(scratch("plain")).proposal}
+    assert found["x_T1w.nii.gz"].role == "volume", "a name says more than values"
+    assert_says(found["x_T1w.nii.gz"].reason, "its name has the word t1w")
+    assert found["a.nii.gz"].role == "reference", found
 
 
 def test_roles_in_any_order_make_one_pipeline():

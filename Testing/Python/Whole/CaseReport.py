@@ -96,7 +96,7 @@ def test_one_page_has_all_of_it():
     words = re.sub(r"data:[^\"]+", "", page)
     assert "Doe" not in words and FOLDER not in words
     assert "sub-1" not in words, "the names of exported files have that of the volume"
-    assert_says(words, "4 files")
+    assert_says(words, "4 files", "<td class=\"\">yes</td>")
     place = brainshift.rest_from_deformed(case.bent, [scenes.focus_of(case)])
     deviation = brainshift.Fit(case.fit_source()).deviation(place)[0]
     assert_says(words, f">{deviation:.2f} mm<")
@@ -115,6 +115,10 @@ def test_the_pictures_show_what_they_say():
     red, green, blue = numpy.concatenate(shown[8:11]).transpose(2, 0, 1)
     is_left = (red > 1.3 * green) & (green > 1.3 * blue) & (red > 0.5 * ORANGE[0])
     assert is_left.sum() > 50 and ((blue > red + 40) & (blue > green + 20)).sum() > 50
+    # Points below the cortex are purple, and large enough for print.
+    red, green, blue = shown[11].transpose(2, 0, 1)
+    purple = ((blue > green + 60) & (red > green + 30)).sum()
+    assert purple > 4500, purple
     for picture, plain in zip(shown[13:16], shown[5:8]):
         assert numpy.abs(picture - plain).mean() > 1.0, "no evidence is drawn"
 

@@ -10,15 +10,19 @@ ParaView's window runs this file as a script; play_window.py reports what did no
 import os
 
 import brainshift
+import numpy
 import test_hand as hand
 import window_testing as window
 from brainshift import scenes
+from brainshift.points import read_from
 from brainshift_testing import scratch
 from paraview import simple
-from patient_testing import cap, make_patient, sunk, table
+from patient_testing import MIDDLE, cap, make_patient, sunk, table
 
 FOLDER = scratch("patient")
 DOCK = "BrainShiftCaseDock"
+STEPS = ("Look", "Measure", "Fit", "Byhand", "Refine", "Judge", "Export", "Tumourleft", "Report",
+         "Moments")
 
 
 def path(name):
@@ -69,6 +73,10 @@ def set_up():
     assert not hand.is_visible(DOCK)
     hand.shortcut("0", hand.ALT)
     settled()
+    hand.focus()
+    hand.shortcut("0", hand.ALT)
+    settled()
+    assert hand.is_visible(DOCK), "the key went from the view to the dock"
     window.forget_undo()
 
 
@@ -163,6 +171,7 @@ def by_hand_takes_the_stamp():
     assert hand.click("BrainShiftCaseByhand")
     hand.wait(200)
     assert hand.setting("tool") == hand.STAMP and simple.GetActiveSource() == case().bent
+    assert hand.has_focus(), "the keys are the tool's"
     hand.take(hand.NONE)
     hand.shortcut("0", hand.ALT)
     settled()
@@ -188,6 +197,10 @@ def another_moment_is_begun_and_shown():
     assert (later.moment, later.minutes) == ("2", 45.0), (later.moment, later.minutes)
     assert hand.entries("BrainShiftCases")[1] == ["sub-1_T1w, first moment", "sub-1_T1w, 2"]
     assert visible(later.bent) == 1 and visible(first.bent) == 0
+    shown, former = (simple.GetRepresentation(each.bent, simple.GetActiveView())
+                     for each in (later, first))
+    assert shown.LookupTable == former.LookupTable and not shown.UseSeparateColorMap
+    assert shown.DrawSegment == 1, "the brain is drawn, not the skin"
     assert hand.choose_by_keys("BrainShiftCases", "sub-1_T1w, first moment")
     settled()
     assert visible(later.bent) == 0 and visible(first.bent) == 1
@@ -242,6 +255,13 @@ def a_folder_is_sorted_and_corrected():
     assert chosen("Landmarks") == "landmarks at rest" and chosen("Measured") == "measured landmarks"
     assert chosen("Reference") == "sub-1_postop", chosen("Reference")
     assert len(hand.entries("BrainShiftCases")[1]) == 2
+    present, other = brainshift.Case.all()[::-1]
+    assert visible(present.bent) == 1 and visible(other.bent) == 0, "one patient at a time"
+    assert hand.choose_by_keys("BrainShiftCases", "sub-1_T1w")
+    settled()
+    assert visible(present.bent) == 0 and visible(other.bent) == 1
+    assert hand.choose_by_keys("BrainShiftCases", "sub-1_T1w 2")
+    settled()
     assert brainshift.Case.all()[0].traces is not None and first == "traced points"
     assert hand.click("BrainShiftCaseJudge")
     settled()
@@ -264,14 +284,23 @@ def the_tumour_that_is_left_is_shown():
     settled()
     resected = simple.FindSource("sub-1_T1w resection")
     assert resected in shown() and second().bent not in shown(), shown()
+    view = simple.GetActiveView()
+    towards = numpy.subtract(view.CameraPosition, view.CameraFocalPoint)
+    with window.unrecorded():
+        contacts = read_from(second().electrodes).positions
+    outwards = contacts.mean(axis=0) - MIDDLE
+    assert towards @ outwards > 0.99 * numpy.linalg.norm(towards) * numpy.linalg.norm(outwards)
     undo("Tumour left")
     assert simple.FindSource("sub-1_T1w resection") is None and second().bent in shown(), shown()
+    assert text_of("Tumourleft") == "", text_of("Tumourleft")
+    window.action("Redo")
+    settled()
+    assert "ml left" in text_of("Tumourleft"), text_of("Tumourleft")
 
 
 def a_reference_is_refined():
     assert hand.click("BrainShiftCaseRefine")
-    window.until(lambda: "Finished" in text_of("Refine") or "compared" in text_of("Refine"),
-                 "the end of the refinement", 120.0)
+    window.until(lambda: "finished after" in text_of("Refine"), "the end of the refinement", 120.0)
     settled()
 
 
@@ -291,11 +320,27 @@ def files_are_written():
     assert drawn[:4, :4].max() == 0 and drawn[32, 32].min() > 100, "no memory of a window"
 
 
+def all_texts():
+    """What the steps found, of each case. The first one is in hand afterwards."""
+    labels = hand.entries("BrainShiftCases")[1]
+    found = []
+    for label in reversed(labels):
+        assert hand.choose_by_keys("BrainShiftCases", label)
+        settled()
+        found.insert(0, {step: text_of(step) for step in STEPS})
+    return found
+
+
 def a_state_brings_the_dock_back():
+    assert hand.click("BrainShiftCaseJudge")  # again: the deformation is another
+    settled()
     assert hand.choose_by_keys("BrainShiftCases", hand.entries("BrainShiftCases")[1][0])
     settled()
     fit = text_of("Fit")
     assert "residuals" in fit, fit
+    told = all_texts()
+    assert "of 8 landmarks" in told[1]["Judge"] and "ml left" in told[1]["Tumourleft"], told
+    assert "files" in told[1]["Export"] and "report.html" in told[1]["Report"], told
     hand.save_state(scratch("case.pvsm"))
     hand.reset_session()
     settled()
@@ -303,6 +348,10 @@ def a_state_brings_the_dock_back():
     hand.load_state(scratch("case.pvsm"))
     window.until(lambda: text_of("Fit") == fit, "the fit of the state")
     assert chosen("Brain") == "a mask" and hand.is_visible("BrainShiftCaseSphere")
+    again = all_texts()
+    assert again == told, [pair for pair in zip(again, told) if pair[0] != pair[1]]
+    simple.RenameSource("sub-1_T..w.nii.gz", brainshift.Case.all()[0].volume)  # as the dialog does
+    window.until(lambda: chosen("Volume") == "sub-1_T1w", "the name that it had")
 
 
 window.main("CaseByHand", [
