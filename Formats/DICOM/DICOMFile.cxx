@@ -4,6 +4,7 @@
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMChecks.h"
 #include "Formats/DICOM/DICOMFrames.h"
+#include "Formats/DICOM/DICOMSegments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,7 @@ void readFacts(const DICOMDataSet& set, DICOMFile& file)
   file.series = textOf(set, 0x0020000e);
   file.instance = textOf(set, 0x00080018);
   file.space = textOf(set, 0x00200052);
+  file.sopClass = textOf(set, 0x00080016);
   file.description = shownTextOf(set, 0x0008103e);
   file.modality = shownTextOf(set, 0x00080060);
   file.date = seriesDateOf(set);
@@ -113,13 +115,15 @@ DICOMFile readDICOMHeader(const std::string& path)
   file.problem = problemOf([&] {
     throwIfAny(problemOfCount);
     requireOnce(content.repeated);
-    requirePixels(set, file.pixels);
+    file.segments.kind = segmentKindOf(set);
+    requirePixels(set, file.pixels, file.segments.kind);
+    readSegments(set, file.segments);
   });
   file.pixels.isPlain = !content.isPacked &&
     std::find(std::begin(Plain), std::end(Plain), content.transferSyntax) != std::end(Plain);
   file.pixels.isBigEndian = set.isBigEndian;
   file.pixels.areExchanged =
-    set.isBigEndian && content.areWords && file.pixels.isPlain && file.pixels.bitsAllocated == 8;
+    set.isBigEndian && content.areWords && file.pixels.isPlain && file.pixels.bitsAllocated <= 8;
   file.pixels.isDeflated = content.transferSyntax == Plain[3];
   file.pixels.offset = content.pixelOffset;
   file.pixels.length = content.pixelLength;
@@ -127,11 +131,16 @@ DICOMFile readDICOMHeader(const std::string& path)
   {
     file.problem = "has no PixelData";
   }
-  file.standsAlone = frames > 1.0 && !describesFrames(set);
+  file.standsAlone =
+    file.segments.kind != SegmentKind::None || (frames > 1.0 && !describesFrames(set));
   file.notes = notesOf(set, file);
   const std::string problem =
     problemOf([&] { readDICOMFrames(set, static_cast<int>(frames), file.frames, file.notes); });
   file.problem = file.problem.empty() ? problem : file.problem;
+  if (file.problem.empty())
+  {
+    file.problem = problemOf([&] { requireSegments(file); });
+  }
   return file;
 }
 }

@@ -183,6 +183,11 @@ std::vector<DICOMSeries> stacksOf(const std::vector<DICOMFile>& files)
   std::map<Kind, std::vector<std::size_t>> ofKind; // indices of series
   for (const DICOMFile& file : files)
   {
+    if (file.segments.kind != SegmentKind::None)
+    {
+      series.push_back({ {}, file.frames, {}, {} }); // one grid, whatever its frames are
+      continue;
+    }
     for (const DICOMFrame& frame : file.frames)
     {
       std::vector<std::size_t>& candidates = ofKind[kindOf(file, frame)];
@@ -256,7 +261,8 @@ void joinParts(const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& se
 std::string nameOf(const DICOMFile& file, const std::vector<DICOMFrame>& frames)
 {
   const std::size_t places = frames.front().isPlaced ? placesOf(frames).size() : frames.size();
-  const std::size_t times = frames.size() / places;
+  const bool isSegmented = file.segments.kind != SegmentKind::None; // several at one position
+  const std::size_t times = isSegmented ? 1 : frames.size() / places;
   std::string name = std::to_string(file.seriesNumber);
   for (const std::string& part : { file.description, file.modality,
          std::to_string(file.columns) + " x " + std::to_string(file.rows) + " x " +
@@ -372,7 +378,9 @@ void sortSeries(
   const auto rank = [&](const DICOMSeries& one) {
     const bool hasFile = std::any_of(one.frames.begin(), one.frames.end(),
       [&](const DICOMFrame& frame) { return files[frame.file].path == path; });
-    return std::make_pair(hasFile, voxelsOf(files, one));
+    // A segmentation belongs to images, which are shown before it.
+    const bool isImage = files[one.frames.front().file].segments.kind == SegmentKind::None;
+    return std::make_tuple(hasFile, isImage && voxelsOf(files, one) > 0.0, voxelsOf(files, one));
   };
   auto first = series.begin();
   for (auto one = series.begin(); one != series.end(); ++one)

@@ -49,6 +49,7 @@ bool readSpacing(const DICOMDataSet& set, const DICOMName& name, DICOMFrame& fra
 // Whether the distances of pixels are there.
 bool readMeasures(const DICOMDataSet& set, DICOMFrame& frame)
 {
+  frame.betweenSlicesMm = std::abs(decimalOf(set, 0x00180088, frame.betweenSlicesMm));
   for (const DICOMTag tag : { 0x00180088, 0x00180050 }) // between slices, thickness
   {
     const double step = std::abs(decimalOf(set, tag, 0.0));
@@ -357,6 +358,9 @@ bool readFunctionalGroups(const Groups& groups, int index, DICOMFrame& frame, No
   frame.isPlaced = hasPosition && hasOrientation;
   readFrameMoment(groups, index, frame.moment);
   readFrameType(groups, index, frame);
+  groups.with(index, 0x0062000a, [&](const DICOMDataSet& segment) {
+    frame.segment = static_cast<int>(std::min(wholeOf(segment, 0x0062000b, 0.0), 65536.0));
+  });
   return isMeasured;
 }
 

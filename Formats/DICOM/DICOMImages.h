@@ -51,11 +51,13 @@ struct DICOMFrame
   glm::dvec3 alongColumn{ 0.0, 1.0, 0.0 }; ///< unit vector: where rows count up
   glm::dvec2 spacingMm{ 1.0 };             ///< between columns, between rows
   double sliceStepMm = 1.0;                ///< what the header says; positions count before it
+  double betweenSlicesMm = 0.0;            ///< SpacingBetweenSlices; 0: not said
   bool knowsStep = false;                  ///< whether the header says it
   std::optional<double> locationMm;        ///< SliceLocation, which positions count before
   Rescaling rescaling;
   std::string quantity; ///< what the numbers mean: Units and RescaleType
   std::string stack;    ///< StackID, in a multi-frame file
+  int segment = 0;      ///< ReferencedSegmentNumber, in a segmentation; 0: none
   std::string type;     ///< such as ORIGINAL\PRIMARY\M
   DICOMMoment moment;
 };
@@ -78,6 +80,23 @@ struct DICOMPixelFormat
   std::uint64_t length = 0; ///< of the pixel data, bytes, if it is plain
 };
 
+/** What the pixels of a segmentation are (SegmentationType). */
+enum class SegmentKind
+{
+  None,       ///< no segmentation
+  Binary,     ///< 1 where the segment of the frame is
+  Fractional, ///< how much of a voxel belongs to it, or how likely, up to DICOMSegments::most
+  LabelMap    ///< numbers of segments
+};
+
+/** What a segmentation says of its segments. */
+struct DICOMSegments
+{
+  SegmentKind kind = SegmentKind::None;
+  int most = 1;              ///< MaximumFractionalValue: this number is all of a voxel
+  std::vector<Label> labels; ///< of the segments, by their numbers
+};
+
 /** The images of one file. */
 struct DICOMFile
 {
@@ -91,7 +110,9 @@ struct DICOMFile
   int columns = 0;
   int rows = 0;
   DICOMPixelFormat pixels;
-  std::string space; ///< FrameOfReferenceUID
+  std::string space;    ///< FrameOfReferenceUID
+  std::string sopClass; ///< SOPClassUID
+  DICOMSegments segments;
   /// What may be wrong, or is not shown: ends of sentences.
   std::vector<std::string> notes;
   std::string problem; ///< why the pixels cannot be read: the end of a sentence; empty if they can

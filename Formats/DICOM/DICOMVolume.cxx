@@ -5,6 +5,7 @@
 #include "Formats/DICOM/DICOMFolder.h"
 #include "Formats/DICOM/DICOMFrames.h"
 #include "Formats/DICOM/DICOMPixels.h"
+#include "Formats/DICOM/DICOMSegmentVolume.h"
 #include "Formats/DICOM/DICOMStack.h"
 
 #include "vtkDataArray.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <system_error>
 #include <type_traits>
@@ -141,6 +143,8 @@ vtkSmartPointer<vtkImageData> imageOf(int columns, int rows, std::size_t slices,
   return image;
 }
 
+constexpr const char* LayerWord = ", layer "; // after the name of a series of segments
+
 // A file name may name a folder.
 class DICOMVolume : public VolumeFile
 {
@@ -163,6 +167,8 @@ private:
   void requireImage(const DICOMFolder& folder);
   // The series that was asked for; the end if there is none.
   std::vector<DICOMSeries>::const_iterator chosenOf(const std::vector<DICOMSeries>& all) const;
+  // Lays out the segments of a series. Its name in the list becomes those of its layers.
+  void readSegments(const DICOMSeries& chosen, VolumeHeader& header);
   // Chooses the type of the numbers.
   void decideType(VolumeHeader& header);
   // Fills an image with one volume; drops it if `progress` says stop.
@@ -174,7 +180,9 @@ private:
   Progress ScanProgress;
   DICOMFolder Folder;
   DICOMStack Stack;
-  int StoredType = VTK_VOID; // VTK_FLOAT: numbers are rescaled as they are read
+  std::unique_ptr<DICOMSegmentVolume> Segments; // null: the series is none of segments
+  std::size_t Layer = 0;                        // of them
+  int StoredType = VTK_VOID;                    // VTK_FLOAT: numbers are rescaled as they are read
 };
 
 std::vector<std::string> DICOMVolume::choices() const
@@ -212,8 +220,10 @@ void DICOMVolume::requireImage(const DICOMFolder& folder)
 std::vector<DICOMSeries>::const_iterator DICOMVolume::chosenOf(
   const std::vector<DICOMSeries>& all) const
 {
-  const auto named = std::find_if(all.begin(), all.end(),
-    [this](const DICOMSeries& series) { return series.name == this->Series; });
+  const auto named = std::find_if(all.begin(), all.end(), [this](const DICOMSeries& series) {
+    const std::string layer = series.name + LayerWord;
+    return series.name == this->Series || this->Series.compare(0, layer.size(), layer) == 0;
+  });
   // Older states name what is parted now.
   const auto whole = std::find_if(all.begin(), all.end(),
     [this](const DICOMSeries& series) { return series.wholeName == this->Series; });
@@ -304,12 +314,20 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   }
   const DICOMFile& file = this->Folder.files[chosen->frames.front().file];
   throwIfAny(file.problem);
+  this->Segments.reset();
   withBeginning("cannot be read: ", [&] {
     for (const DICOMFrame& frame : chosen->frames)
     {
       requirePixelData(this->Folder.files[frame.file]);
     }
   });
+  if (file.segments.kind != SegmentKind::None)
+  {
+    const DICOMSeries series = *chosen;
+    this->readSegments(series, header);
+    warnOfFiles(this->Folder, series, header.warnings);
+    return;
+  }
   this->Stack = stackOf(this->Folder.files, chosen->frames, this->Resampling);
   header.worldFromVoxel = this->Stack.worldFromVoxel;
   const DICOMResampling& upright = this->Stack.resampling;
@@ -321,6 +339,43 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   header.warnings = this->Stack.warnings;
   warnOfFiles(this->Folder, *chosen, header.warnings);
   this->decideType(header);
+}
+
+void DICOMVolume::readSegments(const DICOMSeries& chosen, VolumeHeader& header)
+{
+  this->Stack = DICOMStack();
+  this->Stack.volumes = { { chosen.frames.front() } };
+  this->Segments = std::make_unique<DICOMSegmentVolume>(
+    this->Folder.files[chosen.frames.front().file], [](double) { return true; });
+  const std::vector<std::string> layers = this->Segments->layerNames();
+  std::vector<DICOMSeries>& all = this->Folder.series;
+  auto place = std::find_if(all.begin(), all.end(),
+    [&chosen](const DICOMSeries& series) { return series.name == chosen.name; });
+  this->Layer = 0;
+  bool isNamed = this->Series.empty() || this->Series == chosen.name;
+  const bool isChosen = !isNamed;
+  for (std::size_t i = 0; i < layers.size(); ++i)
+  {
+    DICOMSeries layer = chosen;
+    layer.name = chosen.name + ", " + layers[i];
+    layer.wholeName = chosen.name;
+    this->Layer = layer.name == this->Series ? i : this->Layer;
+    isNamed = isNamed || layer.name == this->Series;
+    place = i == 0 ? place : all.insert(place + 1, layer);
+    *place = layer;
+  }
+  if (!isNamed)
+  {
+    throw Problem("has no series \"" + this->Series + "\"; the segmentation \"" + chosen.name +
+      "\" has " + (layers.empty() ? "one layer" : std::to_string(layers.size()) + " layers"));
+  }
+  this->Segments->describe(this->Layer, header);
+  if (layers.size() > 1 && !isChosen)
+  {
+    header.warnings.push_back("has " + std::to_string(layers.size()) +
+      " layers of segments; layer 1 is shown, without " + this->Segments->namesOutside(0) +
+      "; Series chooses another one");
+  }
 }
 
 void DICOMVolume::decideType(VolumeHeader& header)
@@ -349,6 +404,10 @@ void DICOMVolume::decideType(VolumeHeader& header)
 
 double DICOMVolume::storedBytes(const VolumeHeader& header) const
 {
+  if (this->Segments)
+  {
+    return VolumeFile::storedBytes(header) + DICOMSegmentVolume::BytesAtOnce;
+  }
   // Images as they are read, the grid that is made of them, and decoded files of many frames.
   const DICOMFile& file = this->Folder.files[this->Stack.volumes.front().front().file];
   const double numberBytes = vtkDataArray::GetDataTypeSize(header.storedType);
@@ -386,6 +445,11 @@ void DICOMVolume::readImages(
 
 void DICOMVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
+  if (this->Segments)
+  {
+    this->Segments->load(this->Layer, progress, voxels);
+    return;
+  }
   const std::vector<DICOMFrame>& frames = this->Stack.volumes[volume];
   const DICOMFile& file = this->Folder.files[frames.front().file];
   vtkSmartPointer<vtkImageData> image =
