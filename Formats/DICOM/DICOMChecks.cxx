@@ -20,28 +20,22 @@ bool has(const DICOMDataSet& set, DICOMTag tag)
   return set.elements.count(tag) > 0;
 }
 
-void requireGrey(const DICOMDataSet& set, SegmentKind segments)
+// Grey, or colours that readColors reads.
+void requireShown(const DICOMDataSet& set)
 {
   const double samples = wholeOf(set, 0x00280002, 1.0);
-  if (samples != 1.0)
+  const std::string colors = shownWords(textOf(set, 0x00280004));
+  const bool isOne = colors.empty() || colors == "MONOCHROME1" || colors == "MONOCHROME2" ||
+    colors == "PALETTE COLOR";
+  const bool areThree = colors == "RGB" || colors == "YBR_FULL";
+  if ((samples != 1.0 || !isOne) && (samples != 3.0 || !areThree))
   {
-    throw Problem(
-      joined("has ", samples, " samples per pixel (SamplesPerPixel, PhotometricInterpretation ",
-        shownWords(textOf(set, 0x00280004)),
-        "); BrainShift reads MONOCHROME2 with 1 sample per pixel"));
-  }
-  const std::string colours = shownWords(textOf(set, 0x00280004));
-  const bool isPalette = colours == "PALETTE COLOR" && segments == SegmentKind::LabelMap;
-  if (!colours.empty() && colours != "MONOCHROME2" && !isPalette)
-  {
-    throw Problem("has the PhotometricInterpretation " + colours +
-      "; BrainShift reads MONOCHROME2 with 1 sample per pixel");
-  }
-  if (textOf(set, 0x20500020) == "INVERSE")
-  {
-    throw Problem(
-      "has the PresentationLUTShape INVERSE: small numbers are bright. BrainShift reads "
-      "IDENTITY");
+    throw Problem(joined("has ", samples,
+      " samples per pixel (SamplesPerPixel) with the "
+      "PhotometricInterpretation '",
+      colors,
+      "'; BrainShift reads MONOCHROME1, MONOCHROME2 and "
+      "PALETTE COLOR with 1, RGB and YBR_FULL with 3"));
   }
 }
 
@@ -127,6 +121,19 @@ void requireVolume(const DICOMDataSet& set, SegmentKind kind)
   }
 }
 
+// Numbers are kept; who shows them must know which are bright.
+void noteInverse(const DICOMDataSet& set, const DICOMFile& file, std::vector<std::string>& notes)
+{
+  const bool isInverse = textOf(set, 0x20500020) == "INVERSE";
+  if (file.smallIsBright)
+  {
+    addNote(notes,
+      std::string("has small numbers that are bright (") +
+        (isInverse ? "PresentationLUTShape INVERSE" : "PhotometricInterpretation MONOCHROME1") +
+        "). They are kept as stored: invert the colour map to see them as on a station");
+  }
+}
+
 // Padding that is brighter than tissue may be.
 void notePadding(
   const DICOMDataSet& set, const DICOMPixelFormat& pixels, std::vector<std::string>& notes)
@@ -156,7 +163,7 @@ void requireOnce(const std::vector<DICOMTag>& repeated)
 
 void requirePixels(const DICOMDataSet& set, const DICOMPixelFormat& pixels, SegmentKind segments)
 {
-  requireGrey(set, segments);
+  requireShown(set);
   requireVolume(set, segments);
   requireBits(set, pixels, segments);
 }
@@ -184,6 +191,7 @@ std::vector<std::string> notesOf(const DICOMDataSet& set, const DICOMFile& file)
   {
     addNote(notes, mosaic);
   }
+  noteInverse(set, file, notes);
   notePadding(set, file.pixels, notes);
   return notes;
 }

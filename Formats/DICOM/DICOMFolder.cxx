@@ -174,7 +174,9 @@ Kind kindOf(const DICOMFile& file, const DICOMFrame& frame)
 {
   // Frames without positions of their own are a volume, or the times of one, in their file only.
   const std::string place = file.standsAlone ? file.series + '\n' + file.path : file.series;
-  return { place, file.columns, file.rows, frame.type, file.problem, frame.quantity, frame.stack };
+  const std::string quantity = frame.quantity + (file.smallIsBright ? "\nINVERSE" : "") +
+    (file.pixels.colors == DICOMColors::None ? "" : "\nCOLORS");
+  return { place, file.columns, file.rows, frame.type, file.problem, quantity, frame.stack };
 }
 
 std::vector<DICOMSeries> stacksOf(const std::vector<DICOMFile>& files)
@@ -267,7 +269,8 @@ std::string nameOf(const DICOMFile& file, const std::vector<DICOMFrame>& frames)
   for (const std::string& part : { file.description, file.modality,
          std::to_string(file.columns) + " x " + std::to_string(file.rows) + " x " +
            std::to_string(places),
-         times > 1 ? std::to_string(times) + " times" : std::string(), file.date })
+         times > 1 ? std::to_string(times) + " times" : std::string(), file.date,
+         frames.front().measured })
   {
     name += part.empty() ? "" : ", " + part;
   }
@@ -326,6 +329,9 @@ std::string differencesOf(
       { fileA.rows != fileB.rows, "Rows" },
       { std::max({ turned.x, turned.y, turned.z }) > LargestCosineChange,
         "ImageOrientationPatient" },
+      { fileA.smallIsBright != fileB.smallIsBright ||
+          (fileA.pixels.colors == DICOMColors::None) != (fileB.pixels.colors == DICOMColors::None),
+        "PhotometricInterpretation" },
       { std::max(resized.x, resized.y) > LargestSpacingChange, "PixelSpacing" },
       { a.quantity != b.quantity, "RescaleType or Units" }, { a.type != b.type, "ImageType" },
       { a.stack != b.stack, "StackID" } })

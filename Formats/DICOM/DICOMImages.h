@@ -55,11 +55,23 @@ struct DICOMFrame
   bool knowsStep = false;                  ///< whether the header says it
   std::optional<double> locationMm;        ///< SliceLocation, which positions count before
   Rescaling rescaling;
-  std::string quantity; ///< what the numbers mean: Units and RescaleType
-  std::string stack;    ///< StackID, in a multi-frame file
-  int segment = 0;      ///< ReferencedSegmentNumber, in a segmentation; 0: none
-  std::string type;     ///< such as ORIGINAL\PRIMARY\M
+  std::string quantity;      ///< what the numbers mean: Units and RescaleType, or real values
+  bool isParametric = false; ///< real values count (RealWorldValueMappingSequence)
+  std::string measured;      ///< in a parametric map, for a name: "ADC in mm2/s"
+  std::string unit;          ///< in a parametric map
+  std::string stack;         ///< StackID, in a multi-frame file
+  int segment = 0;           ///< ReferencedSegmentNumber, in a segmentation; 0: none
+  std::string type;          ///< such as ORIGINAL\PRIMARY\M
   DICOMMoment moment;
+};
+
+/** How pixels are colours (PhotometricInterpretation). */
+enum class DICOMColors
+{
+  None, ///< grey
+  RGB,
+  YBR,    ///< brightness and two differences
+  Palette ///< numbers of a table
 };
 
 /** How the numbers of a file are stored. */
@@ -69,7 +81,10 @@ struct DICOMPixelFormat
   int bitsStored = 0;
   int highBit = 0;
   bool isSigned = false;
-  bool isReal = false;      ///< floating point
+  bool isReal = false; ///< floating point
+  DICOMColors colors = DICOMColors::None;
+  bool isPlanar = false;    ///< all red pixels, then all green ones, then all blue ones
+  bool asLuminance = false; ///< colours are handed out as one number
   bool isPlain = false;     ///< whether the bytes of frames follow each other from `offset` on
   bool isBigEndian = false; ///< the order of bytes, if it is plain
   /// Numbers of 1 byte in words whose high byte comes first: the second of two pixels is before
@@ -113,10 +128,13 @@ struct DICOMFile
   std::string space;    ///< FrameOfReferenceUID
   std::string sopClass; ///< SOPClassUID
   DICOMSegments segments;
+  std::vector<std::array<unsigned char, 3>> palette; ///< red, green, blue
+  int firstOfPalette = 0;                            ///< the number of its first colour
   /// What may be wrong, or is not shown: ends of sentences.
   std::vector<std::string> notes;
   std::string problem; ///< why the pixels cannot be read: the end of a sentence; empty if they can
   bool isDamaged = false;         ///< its header cannot be read
+  bool smallIsBright = false;     ///< MONOCHROME1, or the shape INVERSE
   bool standsAlone = false;       ///< its frames have no positions of their own
   std::vector<DICOMFrame> frames; ///< empty if the file holds no image
 };

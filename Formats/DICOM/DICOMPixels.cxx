@@ -3,6 +3,7 @@
 
 #include "Common/Bytes.h"
 #include "Formats/DICOM/DICOMAttributes.h"
+#include "Formats/DICOM/DICOMColors.h"
 #include "Formats/Files/Text.h"
 #include "Formats/PackedFrames/PackedFrame.h"
 
@@ -186,9 +187,10 @@ void readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, i
     throw Problem(file.path + " is damaged: it cannot be inflated");
   }
   const std::size_t count = pixelsOf(file);
-  const std::uint64_t bytes = count * (file.pixels.bitsAllocated / 8);
+  const std::uint64_t bytes = count * static_cast<std::uint64_t>(bytesOfPixel(file.pixels));
+  const bool areColors = file.pixels.colors != DICOMColors::None;
   const int stored = storedTypeOf(file.pixels);
-  std::vector<char> buffer(type == stored ? 0 : bytes);
+  std::vector<char> buffer(type == stored && !areColors ? 0 : bytes);
   for (const DICOMTarget& target : targets)
   {
     if (file.pixels.bitsAllocated == 1)
@@ -201,6 +203,13 @@ void readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, i
     if (!readPixelBytes(stream, file.pixels, begin, bytes, to))
     {
       throw Problem(file.path + " ended while it was read");
+    }
+    if (areColors)
+    {
+      const auto size = static_cast<std::size_t>(file.pixels.bitsAllocated / 8);
+      toMachineOrder(to, bytes / size, size, file.pixels.isBigEndian);
+      paintColors(file, reinterpret_cast<unsigned char*>(to), target.numbers);
+      continue;
     }
     withStoredType(stored, [&](auto* none) {
       auto* numbers = reinterpret_cast<decltype(none)>(to);
@@ -249,6 +258,30 @@ Packing packingOf(const std::string& transferSyntax)
   return found == known.end() ? Packing() : found->second;
 }
 
+// One frame, with a byte for each bit, and three bytes in order for each colour.
+UnpackedFrame unpackedFrame(
+  const DICOMFile& file, const Packing& packing, const std::string& packed)
+{
+  const FrameShape shape{ file.columns, file.rows, std::max(file.pixels.bitsAllocated, 8) };
+  if (file.pixels.bitsAllocated == 1 && packing.keepsBytes)
+  {
+    UnpackedFrame bits =
+      packing.unpack(packed, { static_cast<int>((shape.count() + 7) / 8), 1, 8 });
+    expandFrame(shape.count(), bits);
+    return bits;
+  }
+  if (bytesOfPixel(file.pixels) != 3)
+  {
+    return packing.unpack(packed, shape);
+  }
+  UnpackedFrame colors = packing.unpack(packed, { file.columns, file.rows, 24 });
+  for (std::size_t i = 0; i < colors.numbers.size(); i += 3) // they count as one number: blue first
+  {
+    std::swap(colors.numbers[i], colors.numbers[i + 2]);
+  }
+  return colors;
+}
+
 void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
   DICOMBytes bytes(file.path);
@@ -271,32 +304,32 @@ void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int 
     throw Problem(file.path + " is damaged: its fragments do not make up " +
       std::to_string(file.frames.size()) + " frames");
   }
-  const FrameShape shape{ file.columns, file.rows, std::max(file.pixels.bitsAllocated, 8) };
-  const bool areBits = file.pixels.bitsAllocated == 1 && packing.keepsBytes;
-  const FrameShape bytesOfBits{ static_cast<int>((shape.count() + 7) / 8), 1, 8 };
+  const std::size_t count = pixelsOf(file);
   for (const DICOMTarget& target : targets)
   {
     UnpackedFrame frame = withBeginning(file.path + " cannot be read: ",
-      [&] { return packing.unpack(packed[target.frame->frame], areBits ? bytesOfBits : shape); });
-    if (areBits)
-    {
-      expandFrame(shape.count(), frame);
-    }
+      [&] { return unpackedFrame(file, packing, packed[target.frame->frame]); });
     if (frame.isSigned && !file.pixels.isSigned)
     {
       throw Problem(file.path +
         " cannot be read: a frame has signed numbers; the file says that they are "
         "not signed (Pixel Representation 0)");
     }
+    if (file.pixels.colors != DICOMColors::None)
+    {
+      paintColors(
+        file, reinterpret_cast<const unsigned char*>(frame.numbers.data()), target.numbers);
+      continue;
+    }
     const DICOMPixelFormat format = formatOf(file.pixels, frame);
     withStoredType(storedTypeOf(file.pixels), [&](auto* none) {
       auto* numbers = reinterpret_cast<decltype(none)>(frame.numbers.data());
       if (packing.mayLose && frame.isSigned == file.pixels.isSigned) // else: two's complement
       {
-        clampToStoredBits(format, numbers, shape.count());
+        clampToStoredBits(format, numbers, count);
       }
-      keepStoredBits(format, numbers, shape.count());
-      convert(numbers, shape.count(), target, type);
+      keepStoredBits(format, numbers, count);
+      convert(numbers, count, target, type);
     });
   }
 }
@@ -304,6 +337,10 @@ void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int 
 
 int storedTypeOf(const DICOMPixelFormat& pixels)
 {
+  if (pixels.colors != DICOMColors::None)
+  {
+    return VTK_UNSIGNED_CHAR;
+  }
   if (pixels.isReal)
   {
     return pixels.bitsAllocated == 64 ? VTK_DOUBLE : VTK_FLOAT;
@@ -325,7 +362,7 @@ void requirePixelData(const DICOMFile& file)
   const std::uint64_t pixels = pixelsOf(file) * file.frames.size();
   const std::uint64_t bytes = file.pixels.bitsAllocated == 1
     ? (pixels + 7) / 8
-    : pixels * static_cast<std::uint64_t>(file.pixels.bitsAllocated / 8);
+    : pixels * static_cast<std::uint64_t>(bytesOfPixel(file.pixels));
   const std::uint64_t need = file.pixels.isPlain ? bytes : 0;
   std::error_code error;
   const std::uintmax_t size = need > 0 ? std::filesystem::file_size(file.path, error) : 0;

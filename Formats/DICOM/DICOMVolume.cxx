@@ -2,6 +2,7 @@
 /// @file
 /// Volumes in DICOM: series of slices, and multi-frame files.
 #include "Common/Parallel.h"
+#include "Formats/DICOM/DICOMColors.h"
 #include "Formats/DICOM/DICOMFolder.h"
 #include "Formats/DICOM/DICOMFrames.h"
 #include "Formats/DICOM/DICOMPixels.h"
@@ -135,11 +136,11 @@ std::vector<Part> partsOf(
   return parts;
 }
 
-vtkSmartPointer<vtkImageData> imageOf(int columns, int rows, std::size_t slices, int type)
+vtkSmartPointer<vtkImageData> imageOf(const glm::ivec3& sides, int type, int components = 1)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(columns, rows, static_cast<int>(slices));
-  image->AllocateScalars(type, 1);
+  image->SetDimensions(sides.x, sides.y, sides.z);
+  image->AllocateScalars(type, components);
   return image;
 }
 
@@ -159,6 +160,7 @@ public:
   void choose(const std::string& series) override { this->Series = series; }
 
   void setResampling(SliceResampling resampling) override { this->Resampling = resampling; }
+  void setLuminance(bool luminance) override { this->Luminance = luminance; }
   void setScanProgress(const Progress& progress) override { this->ScanProgress = progress; }
   std::string firstFile() const override;
 
@@ -168,7 +170,7 @@ private:
   // The series that was asked for; the end if there is none.
   std::vector<DICOMSeries>::const_iterator chosenOf(const std::vector<DICOMSeries>& all) const;
   // Lays out the segments of a series. Its name in the list becomes those of its layers.
-  void readSegments(const DICOMSeries& chosen, VolumeHeader& header);
+  void readSegments(DICOMSeries chosen, VolumeHeader& header);
   // Chooses the type of the numbers.
   void decideType(VolumeHeader& header);
   // Fills an image with one volume; drops it if `progress` says stop.
@@ -177,6 +179,7 @@ private:
 
   std::string Series;
   SliceResampling Resampling = SliceResampling::WhereNeeded;
+  bool Luminance = false; // of colours
   Progress ScanProgress;
   DICOMFolder Folder;
   DICOMStack Stack;
@@ -301,6 +304,10 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   }
   this->requireImage(folder);
   this->Folder = std::move(folder);
+  for (DICOMFile& file : this->Folder.files)
+  {
+    file.pixels.asLuminance = this->Luminance;
+  }
   const std::vector<DICOMSeries>& all = this->Folder.series;
   if (all.empty())
   {
@@ -323,12 +330,13 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   });
   if (file.segments.kind != SegmentKind::None)
   {
-    const DICOMSeries series = *chosen;
-    this->readSegments(series, header);
-    warnOfFiles(this->Folder, series, header.warnings);
+    this->readSegments(*chosen, header);
     return;
   }
-  this->Stack = stackOf(this->Folder.files, chosen->frames, this->Resampling);
+  // Colours are not interpolated: nothing is between two entries of a palette.
+  const bool areColors = componentsOf(file.pixels) > 1;
+  this->Stack = stackOf(
+    this->Folder.files, chosen->frames, areColors ? SliceResampling::Never : this->Resampling);
   header.worldFromVoxel = this->Stack.worldFromVoxel;
   const DICOMResampling& upright = this->Stack.resampling;
   header.dimensions = upright.slices.empty()
@@ -341,7 +349,7 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   this->decideType(header);
 }
 
-void DICOMVolume::readSegments(const DICOMSeries& chosen, VolumeHeader& header)
+void DICOMVolume::readSegments(DICOMSeries chosen, VolumeHeader& header)
 {
   this->Stack = DICOMStack();
   this->Stack.volumes = { { chosen.frames.front() } };
@@ -376,6 +384,7 @@ void DICOMVolume::readSegments(const DICOMSeries& chosen, VolumeHeader& header)
       " layers of segments; layer 1 is shown, without " + this->Segments->namesOutside(0) +
       "; Series chooses another one");
   }
+  warnOfFiles(this->Folder, chosen, header.warnings);
 }
 
 void DICOMVolume::decideType(VolumeHeader& header)
@@ -399,6 +408,14 @@ void DICOMVolume::decideType(VolumeHeader& header)
   }
   this->StoredType = isOne ? type : VTK_FLOAT;
   header.storedType = this->StoredType;
+  if (this->Folder.files[first.file].pixels.colors != DICOMColors::None)
+  {
+    this->StoredType = header.storedType = VTK_UNSIGNED_CHAR;
+    header.components = componentsOf(this->Folder.files[first.file].pixels);
+    return;
+  }
+  header.unit = first.unit;
+  header.smallIsBright = this->Folder.files[first.file].smallIsBright;
   header.rescaling = isOne ? first.rescaling : Rescaling();
 }
 
@@ -410,7 +427,7 @@ double DICOMVolume::storedBytes(const VolumeHeader& header) const
   }
   // Images as they are read, the grid that is made of them, and decoded files of many frames.
   const DICOMFile& file = this->Folder.files[this->Stack.volumes.front().front().file];
-  const double numberBytes = vtkDataArray::GetDataTypeSize(header.storedType);
+  const double numberBytes = vtkDataArray::GetDataTypeSize(header.storedType) * header.components;
   double images = static_cast<double>(this->Stack.volumes.front().size());
   images += file.pixels.isPlain ? 0.0 : 2.0 * static_cast<double>(file.frames.size());
   const bool isResampled = !this->Stack.resampling.slices.empty();
@@ -453,7 +470,8 @@ void DICOMVolume::load(std::size_t volume, const Progress& progress, StoredVoxel
   const std::vector<DICOMFrame>& frames = this->Stack.volumes[volume];
   const DICOMFile& file = this->Folder.files[frames.front().file];
   vtkSmartPointer<vtkImageData> image =
-    imageOf(file.columns, file.rows, frames.size(), this->StoredType);
+    imageOf({ file.columns, file.rows, static_cast<int>(frames.size()) }, this->StoredType,
+      componentsOf(file.pixels));
   this->readImages(volume, progress, image);
   if (!image)
   {
@@ -463,7 +481,8 @@ void DICOMVolume::load(std::size_t volume, const Progress& progress, StoredVoxel
   const DICOMResampling& upright = this->Stack.resampling;
   if (!upright.slices.empty())
   {
-    voxels.image = imageOf(upright.columns, upright.rows, upright.slices.size(), this->StoredType);
+    voxels.image = imageOf(
+      { upright.columns, upright.rows, static_cast<int>(upright.slices.size()) }, this->StoredType);
     makeUpright(upright, image, voxels.image);
   }
 }

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """DICOM segmentations for the tests, written by pydicom."""
 
+import struct
+
 import numpy
 import pydicom
 from dicom_testing import AXIAL, plain_header
@@ -35,6 +37,17 @@ def packed(pixels):
     """Bits of all frames in a row, the lowest first."""
     data = numpy.packbits(numpy.asarray(pixels, bool).ravel(), bitorder="little").tobytes()
     return data + b"\0" * (len(data) % 2)
+
+
+def run_lengths(*segments):
+    """A frame in RLE, of literal runs."""
+    runs, begins = b"", []
+    for data in segments:
+        begins.append(64 + len(runs))
+        runs += b"".join(bytes([len(data[i:i + 128]) - 1]) + data[i:i + 128]
+                         for i in range(0, len(data), 128))
+        runs += b"\0" * (len(runs) % 2)
+    return struct.pack("<16I", len(segments), *begins, *(15 - len(begins)) * [0]) + runs
 
 
 def segmentation(frames, kind="BINARY", axes=AXIAL, numbers=None, step=STEP, spacing=SPACING,
