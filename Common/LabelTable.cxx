@@ -20,6 +20,7 @@ struct Table
   vtkIntArray* values = nullptr;
   vtkStringArray* names = nullptr;
   vtkUnsignedCharArray* colors = nullptr;
+  vtkStringArray* terms = nullptr; // may be null
 };
 
 Table tableOf(vtkDataObject* volume, const std::string& word)
@@ -40,6 +41,12 @@ Table tableOf(vtkDataObject* volume, const std::string& word)
     table.values->GetNumberOfComponents() == 1 && table.colors->GetNumberOfComponents() == 3 &&
     table.names->GetNumberOfTuples() == table.values->GetNumberOfTuples() &&
     table.colors->GetNumberOfTuples() == table.values->GetNumberOfTuples();
+  table.terms = vtkStringArray::SafeDownCast(array("Terms"));
+  if (isWhole && table.terms &&
+    table.terms->GetNumberOfTuples() != table.values->GetNumberOfTuples())
+  {
+    table.terms = nullptr;
+  }
   return isWhole ? table : Table();
 }
 }
@@ -47,7 +54,7 @@ Table tableOf(vtkDataObject* volume, const std::string& word)
 void attachLabels(vtkDataObject* volume, const std::vector<Label>& labels, const std::string& word)
 {
   vtkFieldData* fields = volume->GetFieldData();
-  for (const char* what : { "Values", "Names", "Colors" })
+  for (const char* what : { "Values", "Names", "Colors", "Terms" })
   {
     fields->RemoveArray((word + what).c_str());
   }
@@ -58,19 +65,28 @@ void attachLabels(vtkDataObject* volume, const std::vector<Label>& labels, const
   vtkNew<vtkIntArray> values;
   vtkNew<vtkStringArray> names;
   vtkNew<vtkUnsignedCharArray> colors;
+  vtkNew<vtkStringArray> terms;
   values->SetName((word + "Values").c_str());
   names->SetName((word + "Names").c_str());
   colors->SetName((word + "Colors").c_str());
+  terms->SetName((word + "Terms").c_str());
+  bool hasTerms = false;
   colors->SetNumberOfComponents(3);
   for (const Label& label : labels)
   {
     values->InsertNextValue(label.value);
     names->InsertNextValue(label.name);
     colors->InsertNextTypedTuple(label.color.data());
+    terms->InsertNextValue(label.terms);
+    hasTerms = hasTerms || !label.terms.empty();
   }
   fields->AddArray(values);
   fields->AddArray(names);
   fields->AddArray(colors);
+  if (hasTerms)
+  {
+    fields->AddArray(terms);
+  }
 }
 
 std::vector<Label> attachedLabels(vtkDataObject* volume, const std::string& word)
@@ -84,6 +100,7 @@ std::vector<Label> attachedLabels(vtkDataObject* volume, const std::string& word
     label.value = table.values->GetValue(i);
     label.name = table.names->GetValue(i);
     table.colors->GetTypedTuple(i, label.color.data());
+    label.terms = table.terms ? table.terms->GetValue(i) : std::string();
   }
   return labels;
 }

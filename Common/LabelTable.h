@@ -3,7 +3,8 @@
 /// Names and colours of the values of a label map.
 ///
 /// Field arrays: LabelValues (int32, 1 component), LabelNames (string) and LabelColors (uint8, 3
-/// components: red, green, blue), one tuple for each label. A reader attaches them where the file
+/// components: red, green, blue), one tuple for each label; and LabelTerms (string) where a label
+/// has coded terms. A reader attaches them where the file
 /// names its labels. Free-Form Deformation passes them on, and so do most of ParaView's filters.
 /// For the labels of another image that travels with the volume the arrays have another first word
 /// (Segmentation.h).
@@ -26,6 +27,9 @@ struct Label
   int value = 0; ///< of the voxels
   std::string name;
   std::array<unsigned char, 3> color{ 255, 255, 255 }; ///< red, green, blue
+  /// What it is in coded terms, "category~type~modifier", each "scheme^code^meaning" as 3D Slicer
+  /// writes them. Empty: not said.
+  std::string terms;
 };
 
 /** First word of the arrays' names: they are about the values of the volume itself. */

@@ -105,9 +105,18 @@ std::string plainText(const std::string& text)
   return plain;
 }
 
+std::string charactersOf(const DICOMDataSet& set)
+{
+  return textOf(set, SpecificCharacterSet);
+}
+
 std::string shownTextOf(const DICOMDataSet& set, DICOMTag tag)
 {
-  const std::string characters = textOf(set, SpecificCharacterSet);
+  return shownTextOf(set, tag, charactersOf(set));
+}
+
+std::string shownTextOf(const DICOMDataSet& set, DICOMTag tag, const std::string& characters)
+{
   const std::string text = textOf(set, tag).substr(0, LongestShownText);
   const bool isUTF8 = characters == "ISO_IR 192" && isWholeUTF8(text);
   const bool isLatin = characters == "ISO_IR 100";

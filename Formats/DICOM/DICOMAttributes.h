@@ -14,6 +14,12 @@ std::string textOf(const DICOMDataSet& set, DICOMTag tag);
 /** Text of an attribute for the eye: UTF-8, one line, at most 64 characters. */
 std::string shownTextOf(const DICOMDataSet& set, DICOMTag tag);
 
+/** Likewise of an item, with the characters (SpecificCharacterSet) of its file. */
+std::string shownTextOf(const DICOMDataSet& set, DICOMTag tag, const std::string& characters);
+
+/** The characters of a file (SpecificCharacterSet). */
+std::string charactersOf(const DICOMDataSet& set);
+
 /** A text with a question mark for each byte that is no printable letter of ASCII. */
 std::string plainText(const std::string& text);
 

@@ -20,32 +20,49 @@ bool has(const DICOMDataSet& set, DICOMTag tag)
   return set.elements.count(tag) > 0;
 }
 
-void requireGrey(const DICOMDataSet& set)
+// Grey, or colours that readColors reads.
+void requireShown(const DICOMDataSet& set)
 {
   const double samples = wholeOf(set, 0x00280002, 1.0);
-  if (samples != 1.0)
+  const std::string colors = shownWords(textOf(set, 0x00280004));
+  const bool isOne = colors.empty() || colors == "MONOCHROME1" || colors == "MONOCHROME2" ||
+    colors == "PALETTE COLOR";
+  const bool areThree = colors == "RGB" || colors == "YBR_FULL";
+  if ((samples != 1.0 || !isOne) && (samples != 3.0 || !areThree))
   {
-    throw Problem(
-      joined("has ", samples, " samples per pixel (SamplesPerPixel, PhotometricInterpretation ",
-        shownWords(textOf(set, 0x00280004)),
-        "); BrainShift reads MONOCHROME2 with 1 sample per pixel"));
-  }
-  const std::string colours = shownWords(textOf(set, 0x00280004));
-  if (!colours.empty() && colours != "MONOCHROME2")
-  {
-    throw Problem("has the PhotometricInterpretation " + colours +
-      "; BrainShift reads MONOCHROME2 with 1 sample per pixel");
-  }
-  if (textOf(set, 0x20500020) == "INVERSE")
-  {
-    throw Problem(
-      "has the PresentationLUTShape INVERSE: small numbers are bright. BrainShift reads "
-      "IDENTITY");
+    throw Problem(joined("has ", samples,
+      " samples per pixel (SamplesPerPixel) with the "
+      "PhotometricInterpretation '",
+      colors,
+      "'; BrainShift reads MONOCHROME1, MONOCHROME2 and "
+      "PALETTE COLOR with 1, RGB and YBR_FULL with 3"));
   }
 }
 
-void requireBits(const DICOMDataSet& set, const DICOMPixelFormat& pixels)
+// Segments have bits or bytes; numbers of labels may have two bytes.
+void requireSegmentBits(const DICOMPixelFormat& pixels, SegmentKind segments)
 {
+  const int bits = pixels.bitsAllocated;
+  const bool isRight = segments == SegmentKind::Binary ? bits == 1 || bits == 8
+    : segments == SegmentKind::Fractional              ? bits == 8
+                                                       : bits == 8 || bits == 16;
+  if (!isRight || pixels.isReal || pixels.isSigned || pixels.bitsStored != bits ||
+    pixels.highBit != bits - 1)
+  {
+    throw Problem(joined("has segments in pixels of ", bits, " bits, of which ", pixels.bitsStored,
+      " are stored", pixels.isSigned ? ", with a sign" : "", pixels.isReal ? ", floating" : "",
+      "; BINARY has 1 or 8 bits, FRACTIONAL 8, LABELMAP 8 or 16, all of them stored, without a "
+      "sign"));
+  }
+}
+
+void requireBits(const DICOMDataSet& set, const DICOMPixelFormat& pixels, SegmentKind segments)
+{
+  if (segments != SegmentKind::None)
+  {
+    requireSegmentBits(pixels, segments);
+    return;
+  }
   const int bits = pixels.bitsAllocated;
   if (pixels.isReal && bits != 32 && bits != 64)
   {
@@ -76,7 +93,7 @@ void requireBits(const DICOMDataSet& set, const DICOMPixelFormat& pixels)
 }
 
 // Sequences that give numbers or frames another meaning than a volume has.
-void requireVolume(const DICOMDataSet& set)
+void requireVolume(const DICOMDataSet& set, SegmentKind kind)
 {
   requireNoMosaic(set);
   if (!itemsOf(set, 0x00283000).empty())
@@ -86,10 +103,11 @@ void requireVolume(const DICOMDataSet& set)
       "reads RescaleSlope and RescaleIntercept");
   }
   const std::string segments = textOf(set, 0x00620001);
-  if (!segments.empty() && segments != "LABELMAP")
+  if (!segments.empty() && segments != "LABELMAP" && kind == SegmentKind::None)
   {
-    throw Problem("has frames of segments that may overlap (SegmentationType " +
-      shownWords(segments) + "); BrainShift reads LABELMAP. Convert it to .nii.gz or .seg.nrrd");
+    throw Problem("has frames of segments (SegmentationType " + shownWords(segments) +
+      ") in an image of another class than a segmentation (SOPClassUID " +
+      shownWords(textOf(set, 0x00080016)) + "). Convert it to .nii.gz or .seg.nrrd");
   }
   for (const DICOMTag groups : { SharedGroups, FrameGroups })
   {
@@ -100,6 +118,19 @@ void requireVolume(const DICOMDataSet& set)
         "has frames on the axes of its own volume (PlanePositionVolumeSequence), not of "
         "the patient, which BrainShift does not read");
     }
+  }
+}
+
+// Numbers are kept; who shows them must know which are bright.
+void noteInverse(const DICOMDataSet& set, const DICOMFile& file, std::vector<std::string>& notes)
+{
+  const bool isInverse = textOf(set, 0x20500020) == "INVERSE";
+  if (file.smallIsBright)
+  {
+    addNote(notes,
+      std::string("has small numbers that are bright (") +
+        (isInverse ? "PresentationLUTShape INVERSE" : "PhotometricInterpretation MONOCHROME1") +
+        "). They are kept as stored: invert the colour map to see them as on a station");
   }
 }
 
@@ -130,11 +161,11 @@ void requireOnce(const std::vector<DICOMTag>& repeated)
   }
 }
 
-void requirePixels(const DICOMDataSet& set, const DICOMPixelFormat& pixels)
+void requirePixels(const DICOMDataSet& set, const DICOMPixelFormat& pixels, SegmentKind segments)
 {
-  requireGrey(set);
-  requireVolume(set);
-  requireBits(set, pixels);
+  requireShown(set);
+  requireVolume(set, segments);
+  requireBits(set, pixels, segments);
 }
 
 std::vector<std::string> notesOf(const DICOMDataSet& set, const DICOMFile& file)
@@ -160,6 +191,7 @@ std::vector<std::string> notesOf(const DICOMDataSet& set, const DICOMFile& file)
   {
     addNote(notes, mosaic);
   }
+  noteInverse(set, file, notes);
   notePadding(set, file.pixels, notes);
   return notes;
 }

@@ -14,7 +14,7 @@ namespace brainshift
 void requireOnce(const std::vector<DICOMTag>& repeated);
 
 /** Throws the end of a sentence that names the attribute if pixels cannot be read rightly. */
-void requirePixels(const DICOMDataSet& set, const DICOMPixelFormat& pixels);
+void requirePixels(const DICOMDataSet& set, const DICOMPixelFormat& pixels, SegmentKind segments);
 
 /** What is shown although an attribute may give it another meaning: ends of sentences. */
 std::vector<std::string> notesOf(const DICOMDataSet& set, const DICOMFile& file);

@@ -3,7 +3,9 @@
 
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMChecks.h"
+#include "Formats/DICOM/DICOMColors.h"
 #include "Formats/DICOM/DICOMFrames.h"
+#include "Formats/DICOM/DICOMSegments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +37,19 @@ void readPixelFormat(const DICOMDataSet& set, DICOMPixelFormat& pixels)
   pixels.isSigned = whole(0x0103, 0) == 1;
 }
 
+// Where the bytes of pixels are, and their order.
+void placePixels(const DICOMContent& content, DICOMPixelFormat& pixels)
+{
+  pixels.isPlain = !content.isPacked &&
+    std::find(std::begin(Plain), std::end(Plain), content.transferSyntax) != std::end(Plain);
+  pixels.isBigEndian = content.set.isBigEndian;
+  pixels.areExchanged =
+    content.set.isBigEndian && content.areWords && pixels.isPlain && pixels.bitsAllocated <= 8;
+  pixels.isDeflated = content.transferSyntax == Plain[3];
+  pixels.offset = content.pixelOffset;
+  pixels.length = content.pixelLength;
+}
+
 std::string seriesDateOf(const DICOMDataSet& set)
 {
   for (const DICOMTag tag : { 0x00080021, 0x00080022, 0x00080023, 0x00080020 }) // to study
@@ -53,6 +68,7 @@ void readFacts(const DICOMDataSet& set, DICOMFile& file)
   file.series = textOf(set, 0x0020000e);
   file.instance = textOf(set, 0x00080018);
   file.space = textOf(set, 0x00200052);
+  file.sopClass = textOf(set, 0x00080016);
   file.description = shownTextOf(set, 0x0008103e);
   file.modality = shownTextOf(set, 0x00080060);
   file.date = seriesDateOf(set);
@@ -113,25 +129,28 @@ DICOMFile readDICOMHeader(const std::string& path)
   file.problem = problemOf([&] {
     throwIfAny(problemOfCount);
     requireOnce(content.repeated);
-    requirePixels(set, file.pixels);
+    file.segments.kind = segmentKindOf(set);
+    requirePixels(set, file.pixels, file.segments.kind);
+    readSegments(set, file.segments);
+    readColors(content, file);
   });
-  file.pixels.isPlain = !content.isPacked &&
-    std::find(std::begin(Plain), std::end(Plain), content.transferSyntax) != std::end(Plain);
-  file.pixels.isBigEndian = set.isBigEndian;
-  file.pixels.areExchanged =
-    set.isBigEndian && content.areWords && file.pixels.isPlain && file.pixels.bitsAllocated == 8;
-  file.pixels.isDeflated = content.transferSyntax == Plain[3];
-  file.pixels.offset = content.pixelOffset;
-  file.pixels.length = content.pixelLength;
+  placePixels(content, file.pixels);
   if (file.pixels.offset == 0 && file.problem.empty())
   {
     file.problem = "has no PixelData";
   }
-  file.standsAlone = frames > 1.0 && !describesFrames(set);
+  file.standsAlone =
+    file.segments.kind != SegmentKind::None || (frames > 1.0 && !describesFrames(set));
+  file.smallIsBright = textOf(set, 0x00280004) == "MONOCHROME1" ||
+    (textOf(set, 0x00280004) == "MONOCHROME2" && textOf(set, 0x20500020) == "INVERSE");
   file.notes = notesOf(set, file);
   const std::string problem =
     problemOf([&] { readDICOMFrames(set, static_cast<int>(frames), file.frames, file.notes); });
   file.problem = file.problem.empty() ? problem : file.problem;
+  if (file.problem.empty())
+  {
+    file.problem = problemOf([&] { requireSegments(file); });
+  }
   return file;
 }
 }

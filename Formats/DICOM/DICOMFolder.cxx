@@ -174,7 +174,9 @@ Kind kindOf(const DICOMFile& file, const DICOMFrame& frame)
 {
   // Frames without positions of their own are a volume, or the times of one, in their file only.
   const std::string place = file.standsAlone ? file.series + '\n' + file.path : file.series;
-  return { place, file.columns, file.rows, frame.type, file.problem, frame.quantity, frame.stack };
+  const std::string quantity = frame.quantity + (file.smallIsBright ? "\nINVERSE" : "") +
+    (file.pixels.colors == DICOMColors::None ? "" : "\nCOLORS");
+  return { place, file.columns, file.rows, frame.type, file.problem, quantity, frame.stack };
 }
 
 std::vector<DICOMSeries> stacksOf(const std::vector<DICOMFile>& files)
@@ -183,6 +185,11 @@ std::vector<DICOMSeries> stacksOf(const std::vector<DICOMFile>& files)
   std::map<Kind, std::vector<std::size_t>> ofKind; // indices of series
   for (const DICOMFile& file : files)
   {
+    if (file.segments.kind != SegmentKind::None)
+    {
+      series.push_back({ {}, file.frames, {}, {} }); // one grid, whatever its frames are
+      continue;
+    }
     for (const DICOMFrame& frame : file.frames)
     {
       std::vector<std::size_t>& candidates = ofKind[kindOf(file, frame)];
@@ -256,12 +263,14 @@ void joinParts(const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& se
 std::string nameOf(const DICOMFile& file, const std::vector<DICOMFrame>& frames)
 {
   const std::size_t places = frames.front().isPlaced ? placesOf(frames).size() : frames.size();
-  const std::size_t times = frames.size() / places;
+  const bool isSegmented = file.segments.kind != SegmentKind::None; // several at one position
+  const std::size_t times = isSegmented ? 1 : frames.size() / places;
   std::string name = std::to_string(file.seriesNumber);
   for (const std::string& part : { file.description, file.modality,
          std::to_string(file.columns) + " x " + std::to_string(file.rows) + " x " +
            std::to_string(places),
-         times > 1 ? std::to_string(times) + " times" : std::string(), file.date })
+         times > 1 ? std::to_string(times) + " times" : std::string(), file.date,
+         frames.front().measured })
   {
     name += part.empty() ? "" : ", " + part;
   }
@@ -320,6 +329,9 @@ std::string differencesOf(
       { fileA.rows != fileB.rows, "Rows" },
       { std::max({ turned.x, turned.y, turned.z }) > LargestCosineChange,
         "ImageOrientationPatient" },
+      { fileA.smallIsBright != fileB.smallIsBright ||
+          (fileA.pixels.colors == DICOMColors::None) != (fileB.pixels.colors == DICOMColors::None),
+        "PhotometricInterpretation" },
       { std::max(resized.x, resized.y) > LargestSpacingChange, "PixelSpacing" },
       { a.quantity != b.quantity, "RescaleType or Units" }, { a.type != b.type, "ImageType" },
       { a.stack != b.stack, "StackID" } })
@@ -372,7 +384,9 @@ void sortSeries(
   const auto rank = [&](const DICOMSeries& one) {
     const bool hasFile = std::any_of(one.frames.begin(), one.frames.end(),
       [&](const DICOMFrame& frame) { return files[frame.file].path == path; });
-    return std::make_pair(hasFile, voxelsOf(files, one));
+    // A segmentation belongs to images, which are shown before it.
+    const bool isImage = files[one.frames.front().file].segments.kind == SegmentKind::None;
+    return std::make_tuple(hasFile, isImage && voxelsOf(files, one) > 0.0, voxelsOf(files, one));
   };
   auto first = series.begin();
   for (auto one = series.begin(); one != series.end(); ++one)

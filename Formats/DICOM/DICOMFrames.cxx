@@ -21,6 +21,7 @@ constexpr double LargestLengthError = 0.01;  // of a direction
 constexpr DICOMTag SharedGroups = 0x52009229;
 constexpr DICOMTag FrameGroups = 0x52009230;
 constexpr DICOMTag RealWorldValues = 0x00409096;
+constexpr const char* ParametricMapStorage = "1.2.840.10008.5.1.4.1.1.30";
 constexpr DICOMName PixelMeasures{ 0x00289110, "PixelMeasuresSequence" };
 constexpr DICOMName PlanePosition{ 0x00209113, "PlanePositionSequence" };
 constexpr DICOMName PlaneOrientation{ 0x00209116, "PlaneOrientationSequence" };
@@ -49,6 +50,7 @@ bool readSpacing(const DICOMDataSet& set, const DICOMName& name, DICOMFrame& fra
 // Whether the distances of pixels are there.
 bool readMeasures(const DICOMDataSet& set, DICOMFrame& frame)
 {
+  frame.betweenSlicesMm = std::abs(decimalOf(set, 0x00180088, frame.betweenSlicesMm));
   for (const DICOMTag tag : { 0x00180088, 0x00180050 }) // between slices, thickness
   {
     const double step = std::abs(decimalOf(set, tag, 0.0));
@@ -178,6 +180,32 @@ void noteRealValues(const DICOMDataSet& mapping, const Rescaling& shown, Notes& 
     addNote(notes,
       joined("has real values of ", slope, " times the stored ones plus ", intercept, inUnit, end));
   }
+}
+
+// The real values of a parametric map: what its stored numbers mean, and in which unit.
+void readRealValues(const DICOMDataSet& mapping, DICOMFrame& frame)
+{
+  if (mapping.elements.count(0x00409212) > 0)
+  {
+    throw Problem("has the real values of a parametric map in a table "
+                  "(RealWorldValueLUTData); BrainShift reads RealWorldValueSlope and "
+                  "RealWorldValueIntercept");
+  }
+  const double slope = doubleOf(mapping, 0x00409225, NAN);
+  const double intercept = doubleOf(mapping, 0x00409224, NAN);
+  if (!(std::isfinite(slope) && std::isfinite(intercept) && slope != 0.0))
+  {
+    throw Problem(joined("has real values of ", slope, " times the stored ones plus ", intercept,
+      " (RealWorldValueMappingSequence); both must be numbers, and the slope not 0"));
+  }
+  frame.rescaling = { slope, intercept };
+  const Items& units = itemsOf(mapping, 0x004008ea);
+  frame.unit = units.empty() ? "" : shownWords(textOf(units.front(), 0x00080100));
+  frame.unit = frame.unit == "1" ? "" : frame.unit;
+  std::string label = shownWords(textOf(mapping, 0x00283003)); // LUTExplanation, LUTLabel
+  label = label.empty() ? shownWords(textOf(mapping, 0x00409210)) : label;
+  frame.measured = label + (label.empty() || frame.unit.empty() ? "" : " in ") + frame.unit;
+  frame.quantity = label + "\\" + frame.unit;
 }
 
 // A date and time in one text (VR DT): the offset from UTC at its end does not count.
@@ -342,8 +370,16 @@ bool readFunctionalGroups(const Groups& groups, int index, DICOMFrame& frame, No
     [&](const DICOMDataSet& plane) { hasOrientation = readOrientation(plane, frame, notes); });
   groups.with(index, ValueTransformation.tag,
     [&](const DICOMDataSet& values) { readRescaling(values, frame, notes); });
-  groups.with(index, RealWorldValues,
-    [&](const DICOMDataSet& mapping) { noteRealValues(mapping, frame.rescaling, notes); });
+  groups.with(index, RealWorldValues, [&](const DICOMDataSet& mapping) {
+    if (frame.isParametric)
+    {
+      readRealValues(mapping, frame);
+    }
+    else
+    {
+      noteRealValues(mapping, frame.rescaling, notes);
+    }
+  });
   for (const DICOMName& name :
     { PixelMeasures, PlanePosition, PlaneOrientation, ValueTransformation })
   {
@@ -357,6 +393,9 @@ bool readFunctionalGroups(const Groups& groups, int index, DICOMFrame& frame, No
   frame.isPlaced = hasPosition && hasOrientation;
   readFrameMoment(groups, index, frame.moment);
   readFrameType(groups, index, frame);
+  groups.with(index, 0x0062000a, [&](const DICOMDataSet& segment) {
+    frame.segment = static_cast<int>(std::min(wholeOf(segment, 0x0062000b, 0.0), 65536.0));
+  });
   return isMeasured;
 }
 
@@ -499,8 +538,9 @@ bool readCommon(const DICOMDataSet& set, DICOMFrame& frame, Notes& notes)
   frame.isPlaced =
     frame.isPlaced || (!detectors.empty() && readPlane(detectors.front(), frame, notes));
   readRescaling(set, frame, notes);
+  frame.isParametric = textOf(set, 0x00080016) == ParametricMapStorage;
   const Items& mappings = itemsOf(set, RealWorldValues);
-  if (!mappings.empty())
+  if (!mappings.empty() && !frame.isParametric)
   {
     noteRealValues(mappings.front(), frame.rescaling, notes);
   }

@@ -51,13 +51,27 @@ struct DICOMFrame
   glm::dvec3 alongColumn{ 0.0, 1.0, 0.0 }; ///< unit vector: where rows count up
   glm::dvec2 spacingMm{ 1.0 };             ///< between columns, between rows
   double sliceStepMm = 1.0;                ///< what the header says; positions count before it
+  double betweenSlicesMm = 0.0;            ///< SpacingBetweenSlices; 0: not said
   bool knowsStep = false;                  ///< whether the header says it
   std::optional<double> locationMm;        ///< SliceLocation, which positions count before
   Rescaling rescaling;
-  std::string quantity; ///< what the numbers mean: Units and RescaleType
-  std::string stack;    ///< StackID, in a multi-frame file
-  std::string type;     ///< such as ORIGINAL\PRIMARY\M
+  std::string quantity;      ///< what the numbers mean: Units and RescaleType, or real values
+  bool isParametric = false; ///< real values count (RealWorldValueMappingSequence)
+  std::string measured;      ///< in a parametric map, for a name: "ADC in mm2/s"
+  std::string unit;          ///< in a parametric map
+  std::string stack;         ///< StackID, in a multi-frame file
+  int segment = 0;           ///< ReferencedSegmentNumber, in a segmentation; 0: none
+  std::string type;          ///< such as ORIGINAL\PRIMARY\M
   DICOMMoment moment;
+};
+
+/** How pixels are colours (PhotometricInterpretation). */
+enum class DICOMColors
+{
+  None, ///< grey
+  RGB,
+  YBR,    ///< brightness and two differences
+  Palette ///< numbers of a table
 };
 
 /** How the numbers of a file are stored. */
@@ -67,7 +81,10 @@ struct DICOMPixelFormat
   int bitsStored = 0;
   int highBit = 0;
   bool isSigned = false;
-  bool isReal = false;      ///< floating point
+  bool isReal = false; ///< floating point
+  DICOMColors colors = DICOMColors::None;
+  bool isPlanar = false;    ///< all red pixels, then all green ones, then all blue ones
+  bool asLuminance = false; ///< colours are handed out as one number
   bool isPlain = false;     ///< whether the bytes of frames follow each other from `offset` on
   bool isBigEndian = false; ///< the order of bytes, if it is plain
   /// Numbers of 1 byte in words whose high byte comes first: the second of two pixels is before
@@ -76,6 +93,23 @@ struct DICOMPixelFormat
   bool isDeflated = false;  ///< whether `offset` counts bytes after inflating
   std::uint64_t offset = 0; ///< of the pixel data, bytes
   std::uint64_t length = 0; ///< of the pixel data, bytes, if it is plain
+};
+
+/** What the pixels of a segmentation are (SegmentationType). */
+enum class SegmentKind
+{
+  None,       ///< no segmentation
+  Binary,     ///< 1 where the segment of the frame is
+  Fractional, ///< how much of a voxel belongs to it, or how likely, up to DICOMSegments::most
+  LabelMap    ///< numbers of segments
+};
+
+/** What a segmentation says of its segments. */
+struct DICOMSegments
+{
+  SegmentKind kind = SegmentKind::None;
+  int most = 1;              ///< MaximumFractionalValue: this number is all of a voxel
+  std::vector<Label> labels; ///< of the segments, by their numbers
 };
 
 /** The images of one file. */
@@ -91,11 +125,16 @@ struct DICOMFile
   int columns = 0;
   int rows = 0;
   DICOMPixelFormat pixels;
-  std::string space; ///< FrameOfReferenceUID
+  std::string space;    ///< FrameOfReferenceUID
+  std::string sopClass; ///< SOPClassUID
+  DICOMSegments segments;
+  std::vector<std::array<unsigned char, 3>> palette; ///< red, green, blue
+  int firstOfPalette = 0;                            ///< the number of its first colour
   /// What may be wrong, or is not shown: ends of sentences.
   std::vector<std::string> notes;
   std::string problem; ///< why the pixels cannot be read: the end of a sentence; empty if they can
   bool isDamaged = false;         ///< its header cannot be read
+  bool smallIsBright = false;     ///< MONOCHROME1, or the shape INVERSE
   bool standsAlone = false;       ///< its frames have no positions of their own
   std::vector<DICOMFrame> frames; ///< empty if the file holds no image
 };

@@ -3,6 +3,7 @@
 
 #include "Common/Bytes.h"
 #include "Formats/DICOM/DICOMAttributes.h"
+#include "Formats/DICOM/DICOMColors.h"
 #include "Formats/Files/Text.h"
 #include "Formats/PackedFrames/PackedFrame.h"
 
@@ -152,6 +153,30 @@ bool readPixelBytes(DICOMBytes& stream, const DICOMPixelFormat& pixels, std::uin
   return true;
 }
 
+// Bits become numbers of 1 byte. The lowest bit of a byte is the first pixel (PS3.5, 8.1.1).
+void expandBits(const std::vector<char>& packed, std::size_t firstBit, std::size_t count, void* to)
+{
+  auto* numbers = static_cast<unsigned char*>(to);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::size_t bit = firstBit + i;
+    numbers[i] = static_cast<unsigned char>(packed[bit / 8]) >> bit % 8 & 1;
+  }
+}
+
+// A frame of bits begins where the last one ended, which may be inside a byte.
+void readBits(const DICOMFile& file, DICOMBytes& stream, const DICOMTarget& target)
+{
+  const std::size_t count = pixelsOf(file);
+  const std::uint64_t first = count * static_cast<std::uint64_t>(target.frame->frame);
+  std::vector<char> packed((first % 8 + count + 7) / 8);
+  if (!readPixelBytes(stream, file.pixels, first / 8, packed.size(), packed.data()))
+  {
+    throw Problem(file.path + " ended while it was read");
+  }
+  expandBits(packed, first % 8, count, target.numbers);
+}
+
 // Frames whose bytes follow each other go straight to their place.
 void readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
@@ -162,16 +187,29 @@ void readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, i
     throw Problem(file.path + " is damaged: it cannot be inflated");
   }
   const std::size_t count = pixelsOf(file);
-  const std::uint64_t bytes = count * (file.pixels.bitsAllocated / 8);
+  const std::uint64_t bytes = count * static_cast<std::uint64_t>(bytesOfPixel(file.pixels));
+  const bool areColors = file.pixels.colors != DICOMColors::None;
   const int stored = storedTypeOf(file.pixels);
-  std::vector<char> buffer(type == stored ? 0 : bytes);
+  std::vector<char> buffer(type == stored && !areColors ? 0 : bytes);
   for (const DICOMTarget& target : targets)
   {
+    if (file.pixels.bitsAllocated == 1)
+    {
+      readBits(file, stream, target);
+      continue;
+    }
     const std::uint64_t begin = bytes * target.frame->frame;
     char* to = buffer.empty() ? static_cast<char*>(target.numbers) : buffer.data();
     if (!readPixelBytes(stream, file.pixels, begin, bytes, to))
     {
       throw Problem(file.path + " ended while it was read");
+    }
+    if (areColors)
+    {
+      const auto size = static_cast<std::size_t>(file.pixels.bitsAllocated / 8);
+      toMachineOrder(to, bytes / size, size, file.pixels.isBigEndian);
+      paintColors(file, reinterpret_cast<unsigned char*>(to), target.numbers);
+      continue;
     }
     withStoredType(stored, [&](auto* none) {
       auto* numbers = reinterpret_cast<decltype(none)>(to);
@@ -189,7 +227,16 @@ struct Packing
 {
   UnpackedFrame (*unpack)(const std::string& packed, const FrameShape& shape) = nullptr;
   bool mayLose = false;
+  bool keepsBytes = false; // pixels of 1 bit are packed as the bytes that they have without it
 };
+
+// The bits of a frame of bytes, as numbers.
+void expandFrame(std::size_t count, UnpackedFrame& frame)
+{
+  const std::vector<char> packed(frame.numbers.begin(), frame.numbers.end());
+  frame.numbers.resize(count);
+  expandBits(packed, 0, count, frame.numbers.data());
+}
 
 // How frames of a transfer syntax are unpacked. Not named: the multi-component parts of JPEG 2000,
 // videos, and syntaxes that the standard has withdrawn.
@@ -204,10 +251,35 @@ Packing packingOf(const std::string& transferSyntax)
     { "1.2.840.10008.1.2.4.81", { unpackJPEGLS, true } },    // near-lossless
     { "1.2.840.10008.1.2.4.90", { unpackJPEG2000, false } }, // lossless
     { "1.2.840.10008.1.2.4.91", { unpackJPEG2000, true } },
-    { "1.2.840.10008.1.2.5", { unpackRunLengths, false } },
+    { "1.2.840.10008.1.2.5", { unpackRunLengths, false, true } },
+    { "1.2.840.10008.1.2.8.1", { unpackDeflated, false, true } }, // frame by frame
   };
   const auto found = known.find(transferSyntax);
   return found == known.end() ? Packing() : found->second;
+}
+
+// One frame, with a byte for each bit, and three bytes in order for each colour.
+UnpackedFrame unpackedFrame(
+  const DICOMFile& file, const Packing& packing, const std::string& packed)
+{
+  const FrameShape shape{ file.columns, file.rows, std::max(file.pixels.bitsAllocated, 8) };
+  if (file.pixels.bitsAllocated == 1 && packing.keepsBytes)
+  {
+    UnpackedFrame bits =
+      packing.unpack(packed, { static_cast<int>((shape.count() + 7) / 8), 1, 8 });
+    expandFrame(shape.count(), bits);
+    return bits;
+  }
+  if (bytesOfPixel(file.pixels) != 3)
+  {
+    return packing.unpack(packed, shape);
+  }
+  UnpackedFrame colors = packing.unpack(packed, { file.columns, file.rows, 24 });
+  for (std::size_t i = 0; i < colors.numbers.size(); i += 3) // they count as one number: blue first
+  {
+    std::swap(colors.numbers[i], colors.numbers[i + 2]);
+  }
+  return colors;
 }
 
 void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
@@ -232,26 +304,32 @@ void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int 
     throw Problem(file.path + " is damaged: its fragments do not make up " +
       std::to_string(file.frames.size()) + " frames");
   }
-  const FrameShape shape{ file.columns, file.rows, file.pixels.bitsAllocated };
+  const std::size_t count = pixelsOf(file);
   for (const DICOMTarget& target : targets)
   {
     UnpackedFrame frame = withBeginning(file.path + " cannot be read: ",
-      [&] { return packing.unpack(packed[target.frame->frame], shape); });
+      [&] { return unpackedFrame(file, packing, packed[target.frame->frame]); });
     if (frame.isSigned && !file.pixels.isSigned)
     {
       throw Problem(file.path +
         " cannot be read: a frame has signed numbers; the file says that they are "
         "not signed (Pixel Representation 0)");
     }
+    if (file.pixels.colors != DICOMColors::None)
+    {
+      paintColors(
+        file, reinterpret_cast<const unsigned char*>(frame.numbers.data()), target.numbers);
+      continue;
+    }
     const DICOMPixelFormat format = formatOf(file.pixels, frame);
     withStoredType(storedTypeOf(file.pixels), [&](auto* none) {
       auto* numbers = reinterpret_cast<decltype(none)>(frame.numbers.data());
       if (packing.mayLose && frame.isSigned == file.pixels.isSigned) // else: two's complement
       {
-        clampToStoredBits(format, numbers, shape.count());
+        clampToStoredBits(format, numbers, count);
       }
-      keepStoredBits(format, numbers, shape.count());
-      convert(numbers, shape.count(), target, type);
+      keepStoredBits(format, numbers, count);
+      convert(numbers, count, target, type);
     });
   }
 }
@@ -259,12 +337,17 @@ void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int 
 
 int storedTypeOf(const DICOMPixelFormat& pixels)
 {
+  if (pixels.colors != DICOMColors::None)
+  {
+    return VTK_UNSIGNED_CHAR;
+  }
   if (pixels.isReal)
   {
     return pixels.bitsAllocated == 64 ? VTK_DOUBLE : VTK_FLOAT;
   }
   switch (pixels.bitsAllocated)
   {
+    case 1: // one byte for each bit
     case 8:
       return pixels.isSigned ? VTK_SIGNED_CHAR : VTK_UNSIGNED_CHAR;
     case 32:
@@ -276,8 +359,11 @@ int storedTypeOf(const DICOMPixelFormat& pixels)
 
 void requirePixelData(const DICOMFile& file)
 {
-  const std::uint64_t need =
-    file.pixels.isPlain ? pixelsOf(file) * (file.pixels.bitsAllocated / 8) * file.frames.size() : 0;
+  const std::uint64_t pixels = pixelsOf(file) * file.frames.size();
+  const std::uint64_t bytes = file.pixels.bitsAllocated == 1
+    ? (pixels + 7) / 8
+    : pixels * static_cast<std::uint64_t>(bytesOfPixel(file.pixels));
+  const std::uint64_t need = file.pixels.isPlain ? bytes : 0;
   std::error_code error;
   const std::uintmax_t size = need > 0 ? std::filesystem::file_size(file.path, error) : 0;
   std::uint64_t rest = size > file.pixels.offset ? size - file.pixels.offset : 0;

@@ -2,9 +2,11 @@
 /// @file
 /// Volumes in DICOM: series of slices, and multi-frame files.
 #include "Common/Parallel.h"
+#include "Formats/DICOM/DICOMColors.h"
 #include "Formats/DICOM/DICOMFolder.h"
 #include "Formats/DICOM/DICOMFrames.h"
 #include "Formats/DICOM/DICOMPixels.h"
+#include "Formats/DICOM/DICOMSegmentVolume.h"
 #include "Formats/DICOM/DICOMStack.h"
 
 #include "vtkDataArray.h"
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <system_error>
 #include <type_traits>
@@ -133,13 +136,15 @@ std::vector<Part> partsOf(
   return parts;
 }
 
-vtkSmartPointer<vtkImageData> imageOf(int columns, int rows, std::size_t slices, int type)
+vtkSmartPointer<vtkImageData> imageOf(const glm::ivec3& sides, int type, int components = 1)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(columns, rows, static_cast<int>(slices));
-  image->AllocateScalars(type, 1);
+  image->SetDimensions(sides.x, sides.y, sides.z);
+  image->AllocateScalars(type, components);
   return image;
 }
+
+constexpr const char* LayerWord = ", layer "; // after the name of a series of segments
 
 // A file name may name a folder.
 class DICOMVolume : public VolumeFile
@@ -155,6 +160,7 @@ public:
   void choose(const std::string& series) override { this->Series = series; }
 
   void setResampling(SliceResampling resampling) override { this->Resampling = resampling; }
+  void setLuminance(bool luminance) override { this->Luminance = luminance; }
   void setScanProgress(const Progress& progress) override { this->ScanProgress = progress; }
   std::string firstFile() const override;
 
@@ -163,6 +169,8 @@ private:
   void requireImage(const DICOMFolder& folder);
   // The series that was asked for; the end if there is none.
   std::vector<DICOMSeries>::const_iterator chosenOf(const std::vector<DICOMSeries>& all) const;
+  // Lays out the segments of a series. Its name in the list becomes those of its layers.
+  void readSegments(DICOMSeries chosen, VolumeHeader& header);
   // Chooses the type of the numbers.
   void decideType(VolumeHeader& header);
   // Fills an image with one volume; drops it if `progress` says stop.
@@ -171,10 +179,13 @@ private:
 
   std::string Series;
   SliceResampling Resampling = SliceResampling::WhereNeeded;
+  bool Luminance = false; // of colours
   Progress ScanProgress;
   DICOMFolder Folder;
   DICOMStack Stack;
-  int StoredType = VTK_VOID; // VTK_FLOAT: numbers are rescaled as they are read
+  std::unique_ptr<DICOMSegmentVolume> Segments; // null: the series is none of segments
+  std::size_t Layer = 0;                        // of them
+  int StoredType = VTK_VOID;                    // VTK_FLOAT: numbers are rescaled as they are read
 };
 
 std::vector<std::string> DICOMVolume::choices() const
@@ -212,8 +223,10 @@ void DICOMVolume::requireImage(const DICOMFolder& folder)
 std::vector<DICOMSeries>::const_iterator DICOMVolume::chosenOf(
   const std::vector<DICOMSeries>& all) const
 {
-  const auto named = std::find_if(all.begin(), all.end(),
-    [this](const DICOMSeries& series) { return series.name == this->Series; });
+  const auto named = std::find_if(all.begin(), all.end(), [this](const DICOMSeries& series) {
+    const std::string layer = series.name + LayerWord;
+    return series.name == this->Series || this->Series.compare(0, layer.size(), layer) == 0;
+  });
   // Older states name what is parted now.
   const auto whole = std::find_if(all.begin(), all.end(),
     [this](const DICOMSeries& series) { return series.wholeName == this->Series; });
@@ -291,6 +304,10 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   }
   this->requireImage(folder);
   this->Folder = std::move(folder);
+  for (DICOMFile& file : this->Folder.files)
+  {
+    file.pixels.asLuminance = this->Luminance;
+  }
   const std::vector<DICOMSeries>& all = this->Folder.series;
   if (all.empty())
   {
@@ -304,13 +321,22 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   }
   const DICOMFile& file = this->Folder.files[chosen->frames.front().file];
   throwIfAny(file.problem);
+  this->Segments.reset();
   withBeginning("cannot be read: ", [&] {
     for (const DICOMFrame& frame : chosen->frames)
     {
       requirePixelData(this->Folder.files[frame.file]);
     }
   });
-  this->Stack = stackOf(this->Folder.files, chosen->frames, this->Resampling);
+  if (file.segments.kind != SegmentKind::None)
+  {
+    this->readSegments(*chosen, header);
+    return;
+  }
+  // Colours are not interpolated: nothing is between two entries of a palette.
+  const bool areColors = componentsOf(file.pixels) > 1;
+  this->Stack = stackOf(
+    this->Folder.files, chosen->frames, areColors ? SliceResampling::Never : this->Resampling);
   header.worldFromVoxel = this->Stack.worldFromVoxel;
   const DICOMResampling& upright = this->Stack.resampling;
   header.dimensions = upright.slices.empty()
@@ -321,6 +347,44 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   header.warnings = this->Stack.warnings;
   warnOfFiles(this->Folder, *chosen, header.warnings);
   this->decideType(header);
+}
+
+void DICOMVolume::readSegments(DICOMSeries chosen, VolumeHeader& header)
+{
+  this->Stack = DICOMStack();
+  this->Stack.volumes = { { chosen.frames.front() } };
+  this->Segments = std::make_unique<DICOMSegmentVolume>(
+    this->Folder.files[chosen.frames.front().file], [](double) { return true; });
+  const std::vector<std::string> layers = this->Segments->layerNames();
+  std::vector<DICOMSeries>& all = this->Folder.series;
+  auto place = std::find_if(all.begin(), all.end(),
+    [&chosen](const DICOMSeries& series) { return series.name == chosen.name; });
+  this->Layer = 0;
+  bool isNamed = this->Series.empty() || this->Series == chosen.name;
+  const bool isChosen = !isNamed;
+  for (std::size_t i = 0; i < layers.size(); ++i)
+  {
+    DICOMSeries layer = chosen;
+    layer.name = chosen.name + ", " + layers[i];
+    layer.wholeName = chosen.name;
+    this->Layer = layer.name == this->Series ? i : this->Layer;
+    isNamed = isNamed || layer.name == this->Series;
+    place = i == 0 ? place : all.insert(place + 1, layer);
+    *place = layer;
+  }
+  if (!isNamed)
+  {
+    throw Problem("has no series \"" + this->Series + "\"; the segmentation \"" + chosen.name +
+      "\" has " + (layers.empty() ? "one layer" : std::to_string(layers.size()) + " layers"));
+  }
+  this->Segments->describe(this->Layer, header);
+  if (layers.size() > 1 && !isChosen)
+  {
+    header.warnings.push_back("has " + std::to_string(layers.size()) +
+      " layers of segments; layer 1 is shown, without " + this->Segments->namesOutside(0) +
+      "; Series chooses another one");
+  }
+  warnOfFiles(this->Folder, chosen, header.warnings);
 }
 
 void DICOMVolume::decideType(VolumeHeader& header)
@@ -344,14 +408,26 @@ void DICOMVolume::decideType(VolumeHeader& header)
   }
   this->StoredType = isOne ? type : VTK_FLOAT;
   header.storedType = this->StoredType;
+  if (this->Folder.files[first.file].pixels.colors != DICOMColors::None)
+  {
+    this->StoredType = header.storedType = VTK_UNSIGNED_CHAR;
+    header.components = componentsOf(this->Folder.files[first.file].pixels);
+    return;
+  }
+  header.unit = first.unit;
+  header.smallIsBright = this->Folder.files[first.file].smallIsBright;
   header.rescaling = isOne ? first.rescaling : Rescaling();
 }
 
 double DICOMVolume::storedBytes(const VolumeHeader& header) const
 {
+  if (this->Segments)
+  {
+    return VolumeFile::storedBytes(header) + DICOMSegmentVolume::BytesAtOnce;
+  }
   // Images as they are read, the grid that is made of them, and decoded files of many frames.
   const DICOMFile& file = this->Folder.files[this->Stack.volumes.front().front().file];
-  const double numberBytes = vtkDataArray::GetDataTypeSize(header.storedType);
+  const double numberBytes = vtkDataArray::GetDataTypeSize(header.storedType) * header.components;
   double images = static_cast<double>(this->Stack.volumes.front().size());
   images += file.pixels.isPlain ? 0.0 : 2.0 * static_cast<double>(file.frames.size());
   const bool isResampled = !this->Stack.resampling.slices.empty();
@@ -386,10 +462,16 @@ void DICOMVolume::readImages(
 
 void DICOMVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
+  if (this->Segments)
+  {
+    this->Segments->load(this->Layer, progress, voxels);
+    return;
+  }
   const std::vector<DICOMFrame>& frames = this->Stack.volumes[volume];
   const DICOMFile& file = this->Folder.files[frames.front().file];
   vtkSmartPointer<vtkImageData> image =
-    imageOf(file.columns, file.rows, frames.size(), this->StoredType);
+    imageOf({ file.columns, file.rows, static_cast<int>(frames.size()) }, this->StoredType,
+      componentsOf(file.pixels));
   this->readImages(volume, progress, image);
   if (!image)
   {
@@ -399,7 +481,8 @@ void DICOMVolume::load(std::size_t volume, const Progress& progress, StoredVoxel
   const DICOMResampling& upright = this->Stack.resampling;
   if (!upright.slices.empty())
   {
-    voxels.image = imageOf(upright.columns, upright.rows, upright.slices.size(), this->StoredType);
+    voxels.image = imageOf(
+      { upright.columns, upright.rows, static_cast<int>(upright.slices.size()) }, this->StoredType);
     makeUpright(upright, image, voxels.image);
   }
 }

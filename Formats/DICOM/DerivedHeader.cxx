@@ -37,17 +37,6 @@ void appendTag(std::string& bytes, DICOMTag tag)
   append(bytes, tag & 0xffff, 2);
 }
 
-void appendElements(std::string& bytes, const DerivedSet& set)
-{
-  for (const auto& [tag, element] : set)
-  {
-    appendTag(bytes, tag);
-    bytes += element.type;
-    append(bytes, static_cast<std::uint32_t>(element.bytes.size()), 2);
-    bytes += element.bytes;
-  }
-}
-
 // An element of one of the types with a length of 32 bits.
 void appendLongHead(std::string& bytes, DICOMTag tag, const char* type, std::size_t length)
 {
@@ -57,49 +46,23 @@ void appendLongHead(std::string& bytes, DICOMTag tag, const char* type, std::siz
   append(bytes, static_cast<std::uint32_t>(length), 4);
 }
 
-// Sets a value of letters.
-void setText(DerivedSet& set, DICOMTag tag, const std::string& type, const std::string& text)
+void appendElements(std::string& bytes, const DerivedSet& set)
 {
-  std::string padded = text;
-  if (padded.size() % 2 == 1)
+  for (const auto& [tag, element] : set)
   {
-    padded += type == "UI" ? '\0' : ' ';
-  }
-  set[tag] = { type, padded };
-}
-
-// Sets a whole number of 16 bits (VR US).
-void setWhole(DerivedSet& set, DICOMTag tag, int number)
-{
-  std::string bytes;
-  append(bytes, static_cast<std::uint32_t>(number), 2);
-  set[tag] = { "US", bytes };
-}
-
-// A unique identifier made of a random UUID (DICOM part 5, B.2).
-std::string newUID()
-{
-  std::random_device random;
-  std::array<std::uint32_t, 4> words{}; // of a number of 128 bits, the highest first
-  std::generate(words.begin(), words.end(), std::ref(random));
-  words[1] = (words[1] & 0xffff0fff) | 0x4000; // the version: random
-  words[2] = (words[2] & 0x3fffffff) | 0x80000000;
-  std::string digits;
-  while (std::any_of(words.begin(), words.end(), [](std::uint32_t word) { return word > 0; }))
-  {
-    std::uint64_t rest = 0;
-    for (std::uint32_t& word : words) // divides by 10
+    if (element.type == "SQ")
     {
-      rest = rest << 32 | word;
-      word = static_cast<std::uint32_t>(rest / 10);
-      rest %= 10;
+      appendLongHead(bytes, tag, "SQ", element.bytes.size());
     }
-    digits += static_cast<char>('0' + rest);
+    else
+    {
+      appendTag(bytes, tag);
+      bytes += element.type;
+      append(bytes, static_cast<std::uint32_t>(element.bytes.size()), 2);
+    }
+    bytes += element.bytes;
   }
-  std::reverse(digits.begin(), digits.end());
-  return "2.25." + digits;
 }
-
 // The group of the file itself.
 std::string metaOf(const DerivedSet& set)
 {
@@ -114,6 +77,21 @@ std::string metaOf(const DerivedSet& set)
   setText(meta, 0x00020013, "SH", "BrainShift");
   appendElements(bytes, meta);
   return bytes;
+}
+
+// All bytes of a file, with pixels of a type.
+std::string fileWith(const DerivedSet& set, const char* type, const std::string& pixelBytes)
+{
+  const std::string meta = metaOf(set);
+  std::string length;
+  append(length, static_cast<std::uint32_t>(meta.size()), 4);
+  std::string bytes(PreambleBytes, '\0');
+  bytes += "DICM";
+  appendElements(bytes, { { 0x00020000, { "UL", length } } });
+  bytes += meta;
+  appendElements(bytes, set);
+  appendLongHead(bytes, PixelData, type, pixelBytes.size());
+  return bytes + pixelBytes;
 }
 
 namespace fs = std::filesystem;
@@ -273,7 +251,26 @@ void setNow(DerivedSet& set)
   }
 }
 
-void setSeries(const DICOMDataSet& source, DerivedSet& set)
+// How the image was taken, and its grey values.
+bool isOfScanner(DICOMTag tag)
+{
+  return tag >> 16 == 0x0018 || tag >> 16 == 0x0028;
+}
+
+template <typename Choice>
+void keep(const DICOMDataSet& source, DerivedSet& set, const Choice& isMeant)
+{
+  for (const auto& [tag, type] : Kept)
+  {
+    const auto found = source.elements.find(tag);
+    if (found != source.elements.end() && isMeant(tag))
+    {
+      setText(set, tag, type, found->second.bytes);
+    }
+  }
+}
+
+void setKind(const DICOMDataSet& source, DerivedSet& set)
 {
   const std::string modality = textOf(source, Modality);
   setText(set, 0x00080016, "UI", storageOf(modality));
@@ -288,23 +285,6 @@ void setSeries(const DICOMDataSet& source, DerivedSet& set)
   {
     setText(set, ScanningSequence, "CS", "RM"); // research mode
     setText(set, SequenceVariant, "CS", "NONE");
-  }
-  // What the user must see comes first: stations cut long descriptions.
-  std::string description = NotForClinicalUse;
-  const std::string old = textOf(source, SeriesDescription);
-  if (!old.empty() && description.size() + 2 + old.size() <= LongestText)
-  {
-    description += ": " + old;
-  }
-  setText(set, SeriesDescription, "LO", description);
-  const double number = decimalOf(source, SeriesNumber, 0.0);
-  const bool isNumber = number > 0.0 && number <= LastNumber;
-  setText(set, SeriesNumber, "IS",
-    std::to_string(FirstNumber + (isNumber ? static_cast<int>(number) : 0)));
-  setText(set, 0x0020000e, "UI", newUID());
-  if (textOf(source, FrameOfReferenceUID).empty())
-  {
-    setText(set, FrameOfReferenceUID, "UI", newUID());
   }
 }
 
@@ -334,23 +314,90 @@ void setPixelFormat(const DerivedPixels& pixels, DerivedSet& set)
 }
 }
 
+void setText(DerivedSet& set, DICOMTag tag, const std::string& type, const std::string& text)
+{
+  std::string padded = text;
+  if (padded.size() % 2 == 1)
+  {
+    padded += type == "UI" ? '\0' : ' ';
+  }
+  set[tag] = { type, padded };
+}
+
+void setWhole(DerivedSet& set, DICOMTag tag, int number)
+{
+  setWholes(set, tag, "US", { static_cast<std::uint32_t>(number) });
+}
+
+void setWholes(
+  DerivedSet& set, DICOMTag tag, const std::string& type, const std::vector<std::uint32_t>& all)
+{
+  std::string bytes;
+  for (const std::uint32_t number : all)
+  {
+    if (type == "AT")
+    {
+      appendTag(bytes, number);
+    }
+    else
+    {
+      append(bytes, number, type == "UL" ? 4 : 2);
+    }
+  }
+  set[tag] = { type, bytes };
+}
+
+void setSequence(DerivedSet& set, DICOMTag tag, const std::vector<DerivedSet>& items)
+{
+  std::string bytes;
+  for (const DerivedSet& item : items)
+  {
+    std::string elements;
+    appendElements(elements, item);
+    appendTag(bytes, 0xfffee000);
+    append(bytes, static_cast<std::uint32_t>(elements.size()), 4);
+    bytes += elements;
+  }
+  set[tag] = { "SQ", bytes };
+}
+
+std::string newUID()
+{
+  std::random_device random;
+  std::array<std::uint32_t, 4> words{}; // of a number of 128 bits, the highest first
+  std::generate(words.begin(), words.end(), std::ref(random));
+  words[1] = (words[1] & 0xffff0fff) | 0x4000; // the version: random
+  words[2] = (words[2] & 0x3fffffff) | 0x80000000;
+  std::string digits;
+  while (std::any_of(words.begin(), words.end(), [](std::uint32_t word) { return word > 0; }))
+  {
+    std::uint64_t rest = 0;
+    for (std::uint32_t& word : words) // divides by 10
+    {
+      rest = rest << 32 | word;
+      word = static_cast<std::uint32_t>(rest / 10);
+      rest %= 10;
+    }
+    digits += static_cast<char>('0' + rest);
+  }
+  std::reverse(digits.begin(), digits.end());
+  return "2.25." + digits;
+}
+
+std::string fileOf(const DerivedSet& set, const std::string& pixelBytes)
+{
+  return fileWith(set, "OB", pixelBytes);
+}
+
 std::string fileOf(const DerivedSet& set, const std::vector<std::uint16_t>& pixels)
 {
-  const std::string meta = metaOf(set);
-  std::string length;
-  append(length, static_cast<std::uint32_t>(meta.size()), 4);
-  std::string bytes(PreambleBytes, '\0');
-  bytes += "DICM";
-  appendElements(bytes, { { 0x00020000, { "UL", length } } });
-  bytes += meta;
-  appendElements(bytes, set);
-  appendLongHead(bytes, PixelData, "OW", 2 * pixels.size());
-  bytes.reserve(bytes.size() + 2 * pixels.size());
+  std::string bytes;
+  bytes.reserve(2 * pixels.size());
   for (const std::uint16_t pixel : pixels)
   {
     append(bytes, pixel, 2);
   }
-  return bytes;
+  return fileWith(set, "OW", bytes);
 }
 
 void readLike(const std::string& like, DICOMDataSet& source)
@@ -386,23 +433,45 @@ void readLike(const std::string& like, DICOMDataSet& source)
   }
 }
 
-DerivedSet sharedHeader(const DICOMDataSet& source, const DerivedPixels& pixels)
+void setNewSeries(const DICOMDataSet& source, DerivedSet& set)
+{
+  // What the user must see comes first: stations cut long descriptions.
+  std::string description = NotForClinicalUse;
+  const std::string old = textOf(source, SeriesDescription);
+  if (!old.empty() && description.size() + 2 + old.size() <= LongestText)
+  {
+    description += ": " + old;
+  }
+  setText(set, SeriesDescription, "LO", description);
+  const double number = decimalOf(source, SeriesNumber, 0.0);
+  const bool isNumber = number > 0.0 && number <= LastNumber;
+  setText(set, SeriesNumber, "IS",
+    std::to_string(FirstNumber + (isNumber ? static_cast<int>(number) : 0)));
+  setText(set, 0x0020000e, "UI", newUID());
+  if (textOf(source, FrameOfReferenceUID).empty())
+  {
+    setText(set, FrameOfReferenceUID, "UI", newUID());
+  }
+}
+
+DerivedSet studyHeader(const DICOMDataSet& source)
 {
   DerivedSet set;
   for (const auto& [tag, type] : Required)
   {
     setText(set, tag, type, "");
   }
-  for (const auto& [tag, type] : Kept)
-  {
-    const auto found = source.elements.find(tag);
-    if (found != source.elements.end())
-    {
-      setText(set, tag, type, found->second.bytes);
-    }
-  }
+  keep(source, set, [](DICOMTag tag) { return !isOfScanner(tag); });
   setNow(set);
-  setSeries(source, set);
+  return set;
+}
+
+DerivedSet sharedHeader(const DICOMDataSet& source, const DerivedPixels& pixels)
+{
+  DerivedSet set = studyHeader(source);
+  keep(source, set, isOfScanner);
+  setKind(source, set);
+  setNewSeries(source, set);
   setPixelFormat(pixels, set);
   return set;
 }

@@ -44,6 +44,7 @@ UnpackedFrame unpackJPEG(const std::string& packed, const FrameShape& shape);
 UnpackedFrame unpackJPEGLS(const std::string& packed, const FrameShape& shape);
 UnpackedFrame unpackJPEG2000(const std::string& packed, const FrameShape& shape);
 UnpackedFrame unpackRunLengths(const std::string& packed, const FrameShape& shape);
+UnpackedFrame unpackDeflated(const std::string& packed, const FrameShape& shape);
 ///@}
 
 /** What a frame has, in a sentence: "64 x 32 pixels of 1 samples in 12 bits". */

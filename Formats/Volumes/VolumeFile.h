@@ -48,6 +48,8 @@ struct VolumeHeader
   /// stand for right, anterior and superior, which may be wrong.
   bool knowsSides = true;
   std::vector<std::string> warnings; ///< ends of sentences, after the name of the file
+  std::string unit;                  ///< of the numbers, such as mm2/s; empty: not said
+  bool smallIsBright = false;        ///< whether stations show small numbers bright
   std::vector<Label> labels;         ///< names of values, where the file names them
   bool isLabelMap = false;           ///< whether the file says that its values are labels
 };
@@ -122,6 +124,9 @@ public:
 
   /** For uneven or tilted slices. Default: WhereNeeded. */
   virtual void setResampling(SliceResampling /*resampling*/) {}
+
+  /** Whether colours become one number, their brightness. Default: false. */
+  virtual void setLuminance(bool /*luminance*/) {}
 
   /** Receives the fraction of the headers that readHeader has read. Default: no progress. */
   virtual void setScanProgress(const Progress& /*progress*/) {}

@@ -7,6 +7,7 @@
 #include "Formats/Volumes/PlacedVolume.h"
 
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -15,6 +16,7 @@
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +84,25 @@ void announceTimes(vtkInformation* output, const std::vector<double>& times)
     output->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
   }
 }
+
+// The unit of the numbers, and whether small ones are bright.
+void attachMeaning(vtkImageData* image, const brainshift::VolumeHeader& header)
+{
+  if (!header.unit.empty())
+  {
+    vtkNew<vtkStringArray> word;
+    word->SetName("Unit");
+    word->InsertNextValue(header.unit);
+    image->GetFieldData()->AddArray(word);
+  }
+  if (header.smallIsBright)
+  {
+    vtkNew<vtkUnsignedCharArray> mark;
+    mark->SetName("SmallIsBright");
+    mark->InsertNextValue(1);
+    image->GetFieldData()->AddArray(mark);
+  }
+}
 }
 
 vtkStandardNewMacro(vtkVolumeFileReader);
@@ -104,6 +125,7 @@ void vtkVolumeFileReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Format: " << this->Format << "\n";
   os << indent << "Choice: " << this->Choice << "\n";
   os << indent << "ResampleSlices: " << this->ResampleSlices << "\n";
+  os << indent << "Luminance: " << this->Luminance << "\n";
 }
 
 void vtkVolumeFileReader::SetFormat(const char* name)
@@ -158,6 +180,15 @@ void vtkVolumeFileReader::SetResampleSlices(int resample)
   }
 }
 
+void vtkVolumeFileReader::SetLuminance(bool luminance)
+{
+  if (luminance != this->Luminance)
+  {
+    this->Luminance = luminance;
+    this->Modified();
+  }
+}
+
 std::string vtkVolumeFileReader::GetShownFile() const
 {
   return this->File ? this->File->firstFile() : std::string();
@@ -197,6 +228,7 @@ void vtkVolumeFileReader::takeFormat()
     });
   }
   this->File->choose(this->Choice);
+  this->File->setLuminance(this->Luminance);
   this->File->setResampling(static_cast<brainshift::SliceResampling>(this->ResampleSlices));
 }
 
@@ -370,6 +402,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
     return 0; // stopped
   }
   scalars->SetName(brainshift::ScalarsOfVolumes);
+  attachMeaning(shown, this->Stored->header());
   brainshift::attachLabels(shown, this->Stored->header().labels);
   brainshift::markLabelMap(shown, this->Stored->header().isLabelMap);
   brainshift::nameWorldAxes(shown,

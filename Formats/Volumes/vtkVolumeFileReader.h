@@ -17,7 +17,9 @@
  * the file rescales them it is float32, or double for whole numbers of 4 bytes and more. A time
  * series has time steps, in seconds. The field array WorldAxes says RAS if the file knows the
  * patient's sides (WorldAxes.h). Names and colours of labels are attached where the file has them
- * (LabelTable.h). After an error the output stays as it was, or is empty.
+ * (LabelTable.h). The field array Unit (string) is the unit of the numbers, SmallIsBright (one
+ * byte) says that stations show small numbers bright; both only where the file says so. After an
+ * error the output stays as it was, or is empty.
  *
  * Reading can be aborted. Then the output is the volume that was last read to its end, or empty, a
  * warning says so, and nothing is read again before the reader is modified.
@@ -87,6 +89,15 @@ public:
   int GetResampleSlices() const { return this->ResampleSlices; }
   ///@}
 
+  ///@{
+  /**
+   * Whether colours of a DICOM series become one number, their brightness (0.299 red + 0.587 green
+   * + 0.114 blue). Default: false, three components.
+   */
+  void SetLuminance(bool luminance);
+  bool GetLuminance() const { return this->Luminance; }
+  ///@}
+
   /** Why the last run read no volume: a sentence. Empty if it read one. */
   std::string GetProblem() const { return this->Problem; }
 
@@ -143,6 +154,7 @@ private:
   std::string Problem = "Nothing was read";
   vtkNew<vtkStringArray> ChoiceList;
   int ResampleSlices = 2;
+  bool Luminance = false;
   Shown Last;
   bool IsReading = false;
   bool IsStopped = false; // the header that was read last is not what is shown

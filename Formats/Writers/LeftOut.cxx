@@ -22,13 +22,15 @@ void noteLeftOut(const std::string& fileName, vtkImageData* image, vtkInformatio
     notes.push_back(joined("The input has ", times, " times; the file has one of them",
       knowsTime ? joined(", at ", data->Get(vtkDataObject::DATA_TIME_STEP()), " s") : ""));
   }
-  const std::size_t labels = volume.isLabelMap ? attachedLabels(image).size() : 0;
+  const bool keepsLabels = endsWith(lowerCase(fileName), ".seg.dcm"); // a segmentation
+  const std::size_t labels = volume.isLabelMap && !keepsLabels ? attachedLabels(image).size() : 0;
   if (labels > 0)
   {
     notes.push_back(joined(
       "The names and colours of ", labels, labels == 1 ? " label" : " labels", " are left out"));
   }
-  const bool saysLabels = endsWith(fileName, ".nii") || endsWith(fileName, ".nii.gz");
+  const bool saysLabels =
+    keepsLabels || endsWith(fileName, ".nii") || endsWith(fileName, ".nii.gz");
   if (volume.isLabelMap && labels == 0 && !saysLabels)
   {
     notes.emplace_back("That its values are labels is left out; .nii and .nii.gz would say it");

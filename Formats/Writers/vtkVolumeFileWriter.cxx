@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Formats/DICOM/DerivedSegments.h"
 #include "Formats/DICOM/DerivedSeries.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Writers/LeftOut.h"
@@ -54,7 +55,11 @@ void vtkVolumeFileWriter::WriteImage()
     this->UpdateProgress(fraction);
     return !this->CheckAbort();
   };
-  if (!this->Like.empty() || isSeriesName(this->FileName))
+  if (isSegmentationName(this->FileName))
+  {
+    writeSegments(this->FileName, this->Like, { volume, attachedLabels(image) }, progress, warning);
+  }
+  else if (!this->Like.empty() || isSeriesName(this->FileName))
   {
     writeSeries(this->FileName, this->Like, volume, progress);
   }

@@ -18,7 +18,8 @@ from .batching import Done, batch
 from .cases import Case
 from .figures import animate, figure
 from .files import (
-    dicom_patient, load_field, load_lattice, save_dicom, save_field, save_lattice, save_volume)
+    dicom_patient, load_field, load_lattice, save_dicom, save_field, save_lattice,
+    save_segmentation, save_volume)
 from .fitting import Fit, fit
 from .grids import ElectrodeGrid, Electrodes, electrodes
 from .judging import TargetErrors, tre
@@ -43,5 +44,6 @@ __all__ = [
     "deformed_from_rest", "dicom_patient", "electrodes", "figure", "fit", "four_views", "gpu",
     "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
     "percentile_window", "pick", "read_points", "read_transform", "refine", "report", "resect",
-    "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_transform",
-    "save_volume", "show_comparison", "similarities", "slice_axes", "soft", "stamp", "tre"]
+    "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_segmentation",
+    "save_transform", "save_volume", "show_comparison", "similarities", "slice_axes", "soft",
+    "stamp", "tre"]

@@ -250,3 +250,34 @@ def save_dicom(source, folder, like, array=None, world=None):
     writer = servermanager.writers.MedicalSeriesWriter(
         Input=source, FileName=folder, Like=like, PointArray=array or "", World=_world(world))
     _write(writer, folder)
+
+
+def save_segmentation(source, file, like, array=None, world=None):
+    """Save labels as one DICOM segmentation (SEG) in the study of the patient's scan.
+
+    Each value above 0 becomes a segment with the name, the colour and the coded terms that the
+    volume carries. Frames lie in the planes of the scan's images and refer to them. Patient, study
+    and frame of reference are those of the scan. The description reads: research, not for clinical
+    use.
+
+    - `source`: a ParaView source of an image with one component, such as the labels of a tumour, or
+      Bake Deformation of labels. Values are whole numbers from 0 to 65535.
+    - `file`: path of the file, on the machine that computes. It must end in `.seg.dcm`.
+    - `like`: path of a DICOM file of the patient's scan, or of a folder with one.
+    - `array`: name of the point array to write. The default, `None`, takes the active scalars.
+    - `world`: `"RAS"` or `"LPS"`, the world axes of the volume. The default, `None`, takes
+      those that are attached to the volume. Without them nothing is written.
+
+    Segments are numbered from 1 on without gaps, as DICOM wants; a warning says so if labels get
+    other numbers.
+
+    Raises `OSError` with the reason if it is not written, and `ValueError` if `world` is another
+    word or `file` has another ending.
+    """
+    from paraview import servermanager
+
+    if not file.lower().endswith(".seg.dcm"):
+        raise ValueError(f"file is {file!r}; the name of a segmentation must end in .seg.dcm")
+    writer = servermanager.writers.MedicalSeriesWriter(
+        Input=source, FileName=file, Like=like, PointArray=array or "", World=_world(world))
+    _write(writer, file)

@@ -116,7 +116,8 @@ TEST(Defaults, OfDICOMReaderLiveInTheClass)
   vtkNew<vtkVolumeFileReader> reader;
   EXPECT_STREQ(reader->GetChoice(), "");
   const Defaults expected{ { "Format", {} }, // the text "DICOM"
-    { "ResampleSlices", { double(reader->GetResampleSlices()) } } };
+    { "ResampleSlices", { double(reader->GetResampleSlices()) } },
+    { "Luminance", { double(reader->GetLuminance()) } } };
   EXPECT_EQ(defaultsIn("Formats/DICOM/DICOMVolumeReader.xml"), expected);
 }
 

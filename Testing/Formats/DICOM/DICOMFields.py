@@ -299,6 +299,41 @@ def old_multi_frame():
     return found
 
 
+def in_bytes(pixels, **values):
+    """A change to slices of bytes without a sign."""
+    def change(image, _=None):
+        put(BitsAllocated=8, BitsStored=8, HighBit=7, PixelRepresentation=0, PixelData=pixels,
+            **values)(image)
+        image["PixelData"].VR = "OB"
+    return change
+
+
+colours = in_bytes(bytes(range(90)), SamplesPerPixel=3, PhotometricInterpretation="RGB",
+                   PlanarConfiguration=0)
+
+
+def palettes():
+    """Changes of each column, and of what says how many colours there are."""
+    columns = [color + "PaletteColorLookupTable" for color in ("Red", "Green", "Blue")]
+
+    def table(first=0, other=None):
+        def change(image, _=None):
+            in_bytes(bytes(range(30)), PhotometricInterpretation="PALETTE COLOR")(image)
+            for name in columns:
+                data = bytes([0, 9, 0, 7]) if name == other else bytes([0, 1, 0, 2])
+                put(**{name + "Descriptor": [2, first, 16], name + "Data": data})(image)
+                image[name + "Data"].VR = "OW"
+        return change
+
+    good = slices(table())
+    found = {name + "Descriptor": [good, slices(table(first=5))] for name in columns}
+    found.update({name + "Data": [good, slices(table(other=name))] for name in columns})
+    for name in columns:
+        found["Segmented" + name + "Data"] = by(table(), put(**{
+            "Segmented" + name + "Data": bytes(4)}))
+    return found
+
+
 def stored():
     def bits(count, high, sign=1):
         return put(BitsStored=count, HighBit=high, PixelRepresentation=sign)
@@ -329,12 +364,14 @@ def stored():
         "FloatPixelData": by(None, floats("FloatPixelData", "<f4")),
         "DoubleFloatPixelData": by(None, floats("DoubleFloatPixelData", "<f8"))}
     for name, value in (
-            ("PlanarConfiguration", 1), ("PixelPaddingRangeLimit", -3),
+            ("PixelPaddingRangeLimit", -3),
             ("SmallestImagePixelValue", 5), ("LargestImagePixelValue", 9),
             ("LossyImageCompression", "01"),
             ("IconImageSequence", [item(Rows=2, Columns=2, BitsAllocated=8, PixelRepresentation=0,
                                         PixelData=bytes(4))])):
         found[name] = by(None, put(**{name: value}))
+    found["PlanarConfiguration"] = by(colours, put(PlanarConfiguration=1))
+    found.update(palettes())
     found["OverlayData"] = by(None, lambda image, _: image.add_new(0x60003000, "OW", bytes(4)))
     return found
 
