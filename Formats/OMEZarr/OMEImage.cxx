@@ -242,7 +242,7 @@ void takeTransformations(const Json& list, OMELevel& level, bool mustScale)
         "; BrainShift reads scale, translation and identity");
     }
     const std::vector<double> numbers =
-      realNumbersIn(memberOf(entry, type), level.scale.size(), type);
+      realNumbersIn(memberOf(entry, type.c_str()), level.scale.size(), type);
     for (std::size_t axis = 0; axis < numbers.size(); ++axis)
     {
       level.scale[axis] *= type == "scale" ? numbers[axis] : 1.0;

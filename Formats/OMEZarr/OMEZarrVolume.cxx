@@ -50,6 +50,7 @@ public:
   std::vector<std::string> choices() const override
   {
     std::vector<std::string> names;
+    names.reserve(this->Images.size());
     for (const OMEChoice& image : this->Images)
     {
       names.push_back(image.name);

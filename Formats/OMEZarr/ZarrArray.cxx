@@ -121,6 +121,7 @@ void readVersion2(const Json& json, ZarrArray& array)
     std::reverse(array.order.begin(), array.order.end());
   }
   const Json& separator = memberOf(json, "dimension_separator");
+  throwIfAny(json.contains("fill_value") ? "" : "has no fill_value");
   array.separator =
     separator.is_null() ? "." : choiceIn(separator, "dimension_separator", { ".", "/" });
   array.fill = fillBytes(memberOf(json, "fill_value"), array.type);
@@ -193,7 +194,7 @@ void takeCodecs(const Json& json, ZarrArray& array);
 
 void takeShards(const Named& codec, ZarrArray& array)
 {
-  throwIfAny(array.shards ? "has shards in shards, which BrainShift does not read" : "");
+  throwIfAny(array.hasShards() ? "has shards in shards, which BrainShift does not read" : "");
   ZarrShards shards;
   shards.shape = array.chunk;
   array.chunk = wholeNumbersIn(
@@ -276,6 +277,7 @@ void readVersion3(const Json& json, ZarrArray& array)
   array.order.resize(array.shape.size());
   std::iota(array.order.begin(), array.order.end(), 0);
   takeCodecs(memberOf(json, "codecs"), array);
+  throwIfAny(memberOf(json, "fill_value").is_null() ? "has no fill_value" : "");
   array.fill = fillBytes(memberOf(json, "fill_value"), array.type);
 }
 }

@@ -10,7 +10,6 @@
 #include "vtkType.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +23,7 @@ struct ZarrType
   bool isBoolean = false;
 };
 
-/** Files that hold many chunks each, with an index of where they are. */
+/** Files that hold many chunks each, with an index of where they are. Without a shape: none. */
 struct ZarrShards
 {
   std::vector<std::int64_t> shape; ///< numbers along each axis; multiples of the chunk's
@@ -46,9 +45,10 @@ struct ZarrArray
   ZarrCodecs codecs;      ///< of a chunk
   std::string prefix;     ///< before the numbers in the key of a chunk: "c" or nothing
   std::string separator;  ///< between them
-  std::optional<ZarrShards> shards;
+  ZarrShards shards;
 
   std::size_t chunkBytes() const; ///< unpacked
+  bool hasShards() const { return !this->shards.shape.empty(); }
 };
 
 /** Throws the end of a sentence about the array, or if there is none. */

@@ -175,7 +175,7 @@ public:
   bool read(const std::function<bool(double)>& progress)
   {
     constexpr double IndexShare = 0.1; // of the time
-    if (this->Array.shards &&
+    if (this->Array.hasShards() &&
       !this->readIndices([&](double fraction) { return progress(IndexShare * fraction); }))
     {
       return false;
@@ -212,14 +212,14 @@ private:
     Index count;
     for (std::size_t axis = 0; axis < this->Array.chunk.size(); ++axis)
     {
-      count.push_back(this->Array.shards->shape[axis] / this->Array.chunk[axis]);
+      count.push_back(this->Array.shards.shape[axis] / this->Array.chunk[axis]);
     }
     return count;
   }
 
   bool readIndices(const std::function<bool(double)>& progress)
   {
-    const Tiles shards(this->Box, this->Array.shards->shape);
+    const Tiles shards(this->Box, this->Array.shards.shape);
     double bytes = BytesOfEntry;
     for (const std::int64_t count : this->chunksInShard())
     {
@@ -252,7 +252,7 @@ private:
     {
       return;
     }
-    const ZarrShards& shards = *this->Array.shards;
+    const ZarrShards& shards = this->Array.shards;
     const std::size_t stored = bytes + (shards.indexHasChecksum ? BytesOfChecksum : 0);
     if (*size < stored)
     {
@@ -273,9 +273,9 @@ private:
     const Part part = partOf(this->Array, this->Box, chunk);
     const std::string key = this->keyOfFile(chunk);
     withBeginning(
-      "chunk '" + key + "' " + (this->Array.shards ? this->numbersText(chunk) : ""), [&] {
+      "chunk '" + key + "' " + (this->Array.hasShards() ? this->numbersText(chunk) : ""), [&] {
         const std::size_t bytes = this->Array.chunkBytes();
-        std::optional<std::string> packed = this->Array.shards
+        std::optional<std::string> packed = this->Array.hasShards()
           ? this->packedInShard(chunk, key)
           : this->Store.read(key, mostPacked(bytes));
         if (!packed)
@@ -289,6 +289,11 @@ private:
         std::string numbers = unpacked(this->Array.codecs, std::move(*packed), bytes);
         toMachineOrder(numbers.data(), bytes / this->Array.type.bytes, this->Array.type.bytes,
           this->Array.isBigEndian);
+        if (this->Array.type.isBoolean)
+        {
+          std::transform(numbers.begin(), numbers.end(), numbers.begin(),
+            [](char byte) { return static_cast<char>(byte != 0); });
+        }
         copyNumbers(numbers.data(), this->Array.type.bytes, part, this->Box);
       });
   }
@@ -316,7 +321,7 @@ private:
 
   std::string keyOfFile(const Index& chunk) const
   {
-    return keyOf(this->Array, this->Array.shards ? this->shardOf(chunk) : chunk);
+    return keyOf(this->Array, this->Array.hasShards() ? this->shardOf(chunk) : chunk);
   }
 
   std::optional<std::string> packedInShard(const Index& chunk, const std::string& key) const
@@ -334,7 +339,7 @@ private:
         static_cast<std::size_t>(chunk[axis] % inShard[axis]);
     }
     const char* const at = index->second.data() + entry * BytesOfEntry;
-    const bool isBig = this->Array.shards->indexIsBigEndian;
+    const bool isBig = this->Array.shards.indexIsBigEndian;
     const auto offset = storedNumber<std::uint64_t>(at, isBig);
     const auto count = storedNumber<std::uint64_t>(at + BytesOfEntry / 2, isBig);
     if (offset == NoChunk && count == NoChunk)

@@ -36,6 +36,7 @@ void requireDepth(const std::string& json)
 {
   int depth = 0;
   forEachOutside(json, [&](std::size_t i) {
+    throwIfAny(json[i] == '\0' ? "is not good JSON: it has a byte of 0" : "");
     depth += json[i] == '{' || json[i] == '[' ? 1 : 0;
     depth -= json[i] == '}' || json[i] == ']' ? 1 : 0;
     if (depth > MostDepth)
@@ -94,7 +95,7 @@ std::optional<Json> readJson(const ZarrStore& store, const std::string& key)
   });
 }
 
-const Json& memberOf(const Json& object, const std::string& name)
+const Json& memberOf(const Json& object, const char* name)
 {
   static const Json null;
   const auto found = object.is_object() ? object.find(name) : object.end();

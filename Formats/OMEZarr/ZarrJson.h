@@ -24,7 +24,7 @@ using Json = nlohmann::json;
 std::optional<Json> readJson(const ZarrStore& store, const std::string& key);
 
 /** A member of an object; null if it is not there, or if `object` is none. */
-const Json& memberOf(const Json& object, const std::string& name);
+const Json& memberOf(const Json& object, const char* name);
 
 /** A text; `otherwise` if it is none. */
 std::string textIn(const Json& json, const std::string& otherwise = {});
