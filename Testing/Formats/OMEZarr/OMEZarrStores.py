@@ -8,7 +8,7 @@ import zipfile
 import numpy
 import zarr
 import zarr_files
-from brainshift_testing import load_plugin, run_tests
+from brainshift_testing import load_plugin, messages, run_tests
 from zarr_files import OF_VERSION_2, OF_VERSION_3, TYPES, made, read, refused, values_of
 
 load_plugin()
@@ -123,6 +123,24 @@ def test_only_the_chunks_of_a_part_are_read():
     reader.UpdateExtent([0, 3, 0, 3, 0, 3])
     assert reader.GetOutput().GetNumberOfPoints() == 64
     assert "chunk '0/" in refused(path)
+
+
+def test_reading_can_be_stopped():
+    path = made(values_of((24, 24, 24), "uint16"), chunks=(2, 2, 2))
+    reader = simple.OMEZarrReader(FileName=path).GetClientSideObject()
+    reader.UpdateInformation()
+    seen = []
+
+    def stop(caller, _):
+        seen.append(caller.GetProgress())
+        if seen[-1] > 0.3:
+            caller.SetAbortExecute(1)
+    reader.AddObserver("ProgressEvent", stop)
+    with messages() as said:
+        reader.Update()
+    assert "was stopped" in said.text, said.text
+    assert reader.GetOutput().GetNumberOfPoints() == 0
+    assert seen == sorted(seen) and 0.3 < seen[-2] < 0.4, seen  # VTK adds an end
 
 
 def test_times_and_channels():
