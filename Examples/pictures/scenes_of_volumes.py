@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes of the documentation that show volumes and slices as they are drawn."""
 
+import json
 import os
+import tempfile
 
+import numpy
 from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import demo
 import stage
@@ -164,9 +168,54 @@ def dicom(width):
     return stage.side_by_side(views)
 
 
+def _write_level(folder, values):
+    """One array of zarr version 2, in one chunk."""
+    os.makedirs(folder)
+    with open(os.path.join(folder, ".zarray"), "w", encoding="utf-8") as file:
+        json.dump({"zarr_format": 2, "shape": values.shape, "chunks": values.shape,
+                   "dtype": values.dtype.str, "compressor": None, "filters": None, "order": "C",
+                   "fill_value": 0}, file)
+    values.tofile(os.path.join(folder, "0.0.0"))
+
+
+def _pyramid_of_head(folder):
+    """The head as OME-Zarr with three levels, each the average of 2 x 2 x 2 voxels of the last."""
+    image = simple.FetchData(stage.head())[0]
+    values = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(image.GetDimensions()[::-1])
+    scale, shift = numpy.flip(image.GetSpacing()), numpy.flip(image.GetOrigin())
+    datasets = []
+    for level in range(3):
+        _write_level(os.path.join(folder, str(level)), values.astype(numpy.float32))
+        datasets.append({"path": str(level), "coordinateTransformations": [
+            {"type": "scale", "scale": list(scale)},
+            {"type": "translation", "translation": list(shift)}]})
+        values = values.reshape([part for side in values.shape for part in (side // 2, 2)])
+        values = values.mean(axis=(1, 3, 5))
+        shift, scale = shift + scale / 2, scale * 2
+    axes = [{"name": name, "type": "space", "unit": "millimeter"} for name in "zyx"]
+    with open(os.path.join(folder, ".zattrs"), "w", encoding="utf-8") as file:
+        json.dump({"multiscales": [{"version": "0.4", "axes": axes, "datasets": datasets}]}, file)
+    return folder
+
+
+def ome_zarr(width):
+    """The same slice of an OME-Zarr image at three levels."""
+    side = width // 3
+    views = []
+    with tempfile.TemporaryDirectory() as folder:
+        store = _pyramid_of_head(folder)
+        for level in range(3):
+            volume = simple.OMEZarrReader(FileName=store, Level=level)
+            made = stage.flat_view(side, (-309.0, 25.0, 475.0), 125.0, "Sagittal")
+            stage.show_slices(volume, made, ("Sagittal",), position=(-309, 25, 475))
+            views.append(made)
+        return stage.side_by_side(views)
+
+
 VOLUME_SCENES = {
     "brain-before-after": before_after, "head-strength": strength,
     "representation-deformed-volume": deformed_volume, "looks": looks,
     "representation-deformed-slices": deformed_slices, "filter-free-form-deformation-mask": mask,
     "filter-bake-deformation": bake, "orientation": orientation,
-    "filter-dicom-volume-reader": dicom, "filter-nifti-volume-reader": nifti}
+    "filter-dicom-volume-reader": dicom, "filter-nifti-volume-reader": nifti,
+    "filter-ome-zarr-reader": ome_zarr}

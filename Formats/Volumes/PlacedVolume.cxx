@@ -9,6 +9,7 @@
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -27,12 +28,16 @@ void moveVoxels(vtkImageData* stored, vtkImageData* shown, const RasGrid& geomet
   vtkIdType increments[3];
   stored->GetIncrements(increments);
   std::array<vtkIdType, 3> step;
-  const StoredType* first = static_cast<StoredType*>(stored->GetScalarPointer()) + firstComponent;
+  int storedExtent[6];
+  stored->GetExtent(storedExtent);
+  const auto* const numbers = static_cast<StoredType*>(stored->GetScalarPointer());
+  vtkIdType first = firstComponent; // of the voxel 0, 0, 0 of the grid; it need not be there
   for (int axis = 0; axis < 3; ++axis)
   {
     const vtkIdType forward = increments[geometry.voxelAxis[axis]];
     step[axis] = geometry.reversed[axis] ? -forward : forward;
     first += geometry.reversed[axis] ? forward * (dimensions[axis] - 1) : 0;
+    first -= increments[axis] * storedExtent[2 * axis];
   }
   int extent[6];
   shown->GetExtent(extent);
@@ -43,7 +48,8 @@ void moveVoxels(vtkImageData* stored, vtkImageData* shown, const RasGrid& geomet
       for (int y = extent[2]; y <= extent[3]; ++y)
       {
         auto* to = static_cast<ShownType*>(shown->GetScalarPointer(extent[0], y, z));
-        const StoredType* from = first + extent[0] * step[0] + y * step[1] + z * step[2];
+        const StoredType* from =
+          numbers + (first + extent[0] * step[0] + y * step[1] + z * step[2]);
         for (int x = extent[0]; x <= extent[1]; ++x, from += step[0])
         {
           for (int component = 0; component < components; ++component)
@@ -73,6 +79,36 @@ void moveVoxelsOf(vtkImageData* stored, vtkImageData* shown, const RasGrid& geom
   moveVoxels<T, Shown>(stored, shown, geometry, firstComponent, [&rescaling](T value) {
     return static_cast<Shown>(rescaling.slope * static_cast<double>(value) + rescaling.intercept);
   });
+}
+}
+
+namespace
+{
+// Whether the voxels are already those that are to be shown.
+bool isAsShown(const StoredVoxels& stored, const RasGrid& geometry, const VolumeHeader& header)
+{
+  const bool isMoved = geometry.voxelAxis != std::array<int, 3>{ 0, 1, 2 } ||
+    geometry.reversed != std::array<bool, 3>{};
+  int extent[6];
+  stored.image->GetExtent(extent);
+  return stored.mayBeShown && !isMoved && !header.rescaling.isNeeded() &&
+    std::equal(stored.wanted.begin(), stored.wanted.end(), extent) &&
+    stored.image->GetNumberOfScalarComponents() == header.components;
+}
+
+// The extent in the file's order of one of the grid.
+std::array<int, 6> extentInFile(const int extent[6], const RasGrid& geometry)
+{
+  std::array<int, 6> stored{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int last = geometry.grid.dimensions[axis] - 1;
+    const bool isReversed = geometry.reversed[axis];
+    const auto to = 2 * static_cast<std::size_t>(geometry.voxelAxis[axis]);
+    stored[to] = isReversed ? last - extent[2 * axis + 1] : extent[2 * axis];
+    stored[to + 1] = isReversed ? last - extent[2 * axis] : extent[2 * axis + 1];
+  }
+  return stored;
 }
 }
 
@@ -197,6 +233,7 @@ void PlacedVolume::read(
   std::size_t volume, const int extent[6], const Progress& progress, vtkImageData* image)
 {
   StoredVoxels stored;
+  stored.wanted = extentInFile(extent, this->Geometry);
   withBeginning(this->sentence("cannot be read: "), [&] {
     this->requireMemory(extent);
     this->File->load(volume, progress, stored);
@@ -206,6 +243,11 @@ void PlacedVolume::read(
     return;
   }
   image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
+  if (isAsShown(stored, this->Geometry, this->Header))
+  {
+    image->GetPointData()->SetScalars(stored.image->GetPointData()->GetScalars());
+    return;
+  }
   image->AllocateScalars(this->scalarType(), this->Header.components);
   switch (stored.image->GetScalarType())
   {

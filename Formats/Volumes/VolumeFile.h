@@ -13,10 +13,12 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
 
+class vtkAbstractArray;
 class vtkDataArray;
 class vtkImageData;
 
@@ -50,21 +52,26 @@ struct VolumeHeader
   std::vector<std::string> warnings; ///< ends of sentences, after the name of the file
   std::string unit;                  ///< of the numbers, such as mm2/s; empty: not said
   bool smallIsBright = false;        ///< whether stations show small numbers bright
-  std::vector<Label> labels;         ///< names of values, where the file names them
-  bool isLabelMap = false;           ///< whether the file says that its values are labels
+  std::vector<Label> labels;               ///< names of values, where the file names them
+  bool isLabelMap = false;                 ///< whether the file says that its values are labels
+  std::vector<std::string> componentNames; ///< as many as there are components, or none
+  std::string note; ///< what was chosen of the file, and why: a sentence. Empty: nothing to say
+  std::vector<vtkSmartPointer<vtkAbstractArray>> attached; ///< more field data of each volume
 };
 
 /** What a reader says of a file that does not know the sides, after the name of the file. */
 constexpr const char* UnknownSidesWarning =
   "does not say where the sides of the patient are: left and right may be exchanged";
 
-/** Voxels in the file's order: the extent of the image begins at 0. */
+/** Voxels in the file's order: the extent of the image says which of the file's they are. */
 struct StoredVoxels
 {
+  std::array<int, 6> wanted{};         ///< the extent that is needed; there may be more
   vtkSmartPointer<vtkImageData> image; ///< null: reading was stopped
   int firstComponent = 0;              ///< of the volume that was asked for
+  bool mayBeShown = false;             ///< whether nobody else keeps the numbers or changes them
 
-  /** Makes the image of these numbers. */
+  /** Makes the image of all voxels from these numbers. */
   void show(const glm::ivec3& dimensions, vtkDataArray* numbers);
 };
 
@@ -80,6 +87,14 @@ enum class SliceResampling
   Never = 0,      ///< slices are shown as they are stored, as if they were upright and even
   Always = 1,     ///< wherever they are uneven or tilted
   WhereNeeded = 2 ///< where slices would be shown half a voxel or more from their position
+};
+
+/** What is read of a file with several resolutions (levels; 0 is the finest) or channels. */
+struct PyramidChoice
+{
+  int level;       ///< -1: the finest that fits the limit
+  double limitMiB; ///< of the numbers of one time step
+  int channel;     ///< -1: all of them, as components
 };
 
 /** Receives the fraction that is done, 0 to 1. Returns false if the work is to stop. */
@@ -127,6 +142,9 @@ public:
 
   /** Whether colours become one number, their brightness. Default: false. */
   virtual void setLuminance(bool /*luminance*/) {}
+
+  /** For files with several levels or channels. Default: there are none. */
+  virtual void setPyramid(const PyramidChoice& /*pyramid*/) {}
 
   /** Receives the fraction of the headers that readHeader has read. Default: no progress. */
   virtual void setScanProgress(const Progress& /*progress*/) {}

@@ -72,6 +72,25 @@ std::size_t nearestIndex(const std::vector<double>& times, double time)
   return nearest;
 }
 
+// What the header says beside where the voxels lie.
+void attachFacts(const brainshift::VolumeHeader& header, vtkImageData* volume)
+{
+  vtkDataArray* const scalars = volume->GetPointData()->GetScalars();
+  scalars->SetName(brainshift::ScalarsOfVolumes);
+  for (std::size_t i = 0; i < header.componentNames.size(); ++i)
+  {
+    scalars->SetComponentName(static_cast<vtkIdType>(i), header.componentNames[i].c_str());
+  }
+  for (vtkAbstractArray* array : header.attached)
+  {
+    volume->GetFieldData()->AddArray(array);
+  }
+  brainshift::attachLabels(volume, header.labels);
+  brainshift::markLabelMap(volume, header.isLabelMap);
+  brainshift::nameWorldAxes(
+    volume, header.knowsSides ? brainshift::WorldAxes::RAS : brainshift::WorldAxes::Unknown);
+}
+
 void announceTimes(vtkInformation* output, const std::vector<double>& times)
 {
   output->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
@@ -126,6 +145,9 @@ void vtkVolumeFileReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Choice: " << this->Choice << "\n";
   os << indent << "ResampleSlices: " << this->ResampleSlices << "\n";
   os << indent << "Luminance: " << this->Luminance << "\n";
+  os << indent << "Level: " << this->Level << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent << "Channel: " << this->Channel << "\n";
 }
 
 void vtkVolumeFileReader::SetFormat(const char* name)
@@ -189,6 +211,41 @@ void vtkVolumeFileReader::SetLuminance(bool luminance)
   }
 }
 
+void vtkVolumeFileReader::SetLevel(int level)
+{
+  level = std::max(level, -1);
+  if (level != this->Level)
+  {
+    this->Level = level;
+    this->Modified();
+  }
+}
+
+void vtkVolumeFileReader::SetMemoryLimit(double mebibytes)
+{
+  mebibytes = mebibytes > 0.0 ? mebibytes : 0.0; // also of NaN
+  if (mebibytes != this->MemoryLimit)
+  {
+    this->MemoryLimit = mebibytes;
+    this->Modified();
+  }
+}
+
+void vtkVolumeFileReader::SetChannel(int channel)
+{
+  channel = std::max(channel, -1);
+  if (channel != this->Channel)
+  {
+    this->Channel = channel;
+    this->Modified();
+  }
+}
+
+std::string vtkVolumeFileReader::GetNote() const
+{
+  return this->Stored && this->Stored->isPlaced() ? this->Stored->header().note : std::string();
+}
+
 std::string vtkVolumeFileReader::GetShownFile() const
 {
   return this->File ? this->File->firstFile() : std::string();
@@ -229,6 +286,7 @@ void vtkVolumeFileReader::takeFormat()
   }
   this->File->choose(this->Choice);
   this->File->setLuminance(this->Luminance);
+  this->File->setPyramid({ this->Level, this->MemoryLimit, this->Channel });
   this->File->setResampling(static_cast<brainshift::SliceResampling>(this->ResampleSlices));
 }
 
@@ -408,6 +466,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   brainshift::nameWorldAxes(shown,
     this->Stored->header().knowsSides ? brainshift::WorldAxes::RAS
                                       : brainshift::WorldAxes::Unknown);
+  attachFacts(this->Stored->header(), shown);
   this->rememberLast(information);
   return 1;
 }

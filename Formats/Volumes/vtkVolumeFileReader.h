@@ -98,6 +98,31 @@ public:
   bool GetLuminance() const { return this->Luminance; }
   ///@}
 
+   * Which resolution (level) of a file with several to read: 0 is the finest, -1 the finest whose
+   * numbers fit MemoryLimit. Default: -1.
+   */
+  void SetLevel(int level);
+  int GetLevel() const { return this->Level; }
+  ///@}
+
+  ///@{
+  /**
+   * The most MiB that the numbers of one time step may take if Level is -1, at least 0. Where no
+   * level fits, the coarsest is read. Default: 2048.
+   */
+  void SetMemoryLimit(double mebibytes);
+  double GetMemoryLimit() const { return this->MemoryLimit; }
+  ///@}
+
+  ///@{
+  /** Which channel of an image to read: from 0 on, or -1, all as components. Default: -1. */
+  void SetChannel(int channel);
+  int GetChannel() const { return this->Channel; }
+  ///@}
+
+  /** What was chosen of the file, and why: a sentence. Empty if the format chooses nothing. */
+  std::string GetNote() const;
+
   /** Why the last run read no volume: a sentence. Empty if it read one. */
   std::string GetProblem() const { return this->Problem; }
 
@@ -155,6 +180,9 @@ private:
   vtkNew<vtkStringArray> ChoiceList;
   int ResampleSlices = 2;
   bool Luminance = false;
+  int Level = -1;
+  double MemoryLimit = 2048.0; // MiB
+  int Channel = -1;
   Shown Last;
   bool IsReading = false;
   bool IsStopped = false; // the header that was read last is not what is shown

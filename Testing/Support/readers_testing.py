@@ -13,6 +13,7 @@ import nibabel
 import numpy
 import outside_testing
 import volume_files
+import zarr_files
 from brainshift_testing import data
 from paraview import servermanager, simple
 
@@ -22,8 +23,8 @@ SHAPE = (7, 6, 5)
 IMAGES = {"volume.nii": "NIFTIVolumeReader", "volume.nrrd": "NRRDVolumeReader",
           "volume.mha": "MHAVolumeReader", "volume.mgz": "MGHVolumeReader",
           "volume.mnc": "MINCVolumeReader", "sheared.nrrd": "NRRDVolumeReader",
-          "slices": "DICOMFileReader", "field.nrrd": "DisplacementFieldReader",
-          "spline.tfm": "TransformReader"}
+          "stack.zarr": "OMEZarrReader", "slices": "DICOMFileReader",
+          "field.nrrd": "DisplacementFieldReader", "spline.tfm": "TransformReader"}
 POINTS = numpy.random.default_rng(4).uniform((-60, -40, 10), (20, 40, 70), (50, 3))
 SECOND = "2, Neck, CT, 6 x 5 x 3, 2024-02-29"
 
@@ -74,6 +75,8 @@ def write_files(folder):
     nibabel.MGHImage(voxels, AFFINE).to_filename(path("volume.mgz"))
     minc_files.write(path("volume.mnc"), voxels.astype("float32"), AFFINE)
     write_dicom(path("slices"))
+    zarr_files.write_array(path("stack.zarr"), "0", voxels.T, chunks=(2, 3, 2))
+    zarr_files.describe(path("stack.zarr"), [zarr_files.level("0", [2, 3, 4], [5, 6, 7])])
     vectors = numpy.random.default_rng(9).uniform(-3, 3, (5, 6, 7, 3)).astype("<f4")
     header = ("NRRD0004\ntype: float\ndimension: 4\nsizes: 3 7 6 5\nkinds: vector domain domain "
               "domain\nspace: left-posterior-superior\nspace directions: none (9,0,0) (0,8,0) "

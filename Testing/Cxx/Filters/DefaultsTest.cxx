@@ -121,6 +121,15 @@ TEST(Defaults, OfDICOMReaderLiveInTheClass)
   EXPECT_EQ(defaultsIn("Formats/DICOM/DICOMVolumeReader.xml"), expected);
 }
 
+TEST(Defaults, OfOMEZarrReaderLiveInTheClass)
+{
+  vtkNew<vtkVolumeFileReader> reader;
+  const Defaults expected{ { "Channel", { double(reader->GetChannel()) } },
+    { "Format", {} }, // the text "OMEZarr"
+    { "Level", { double(reader->GetLevel()) } }, { "MemoryLimit", { reader->GetMemoryLimit() } } };
+  EXPECT_EQ(defaultsIn("Formats/OMEZarr/OMEZarrReader.xml"), expected);
+}
+
 TEST(Defaults, OfElectrodeGridsLiveInTheClass)
 {
   vtkNew<vtkElectrodeGrids> filter;

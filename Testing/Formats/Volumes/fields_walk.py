@@ -69,6 +69,9 @@ def outcome_of(proxy_name, path, **properties):
         facts += [data.GetDimensions(), numpy.round(data.GetSpacing(), 9).tolist(),
                   numpy.round(data.GetOrigin(), 6).tolist(), data.GetScalarTypeAsString(),
                   [round(direction.GetElement(i // 3, i % 3), 9) for i in range(9)]]
+        scalars = data.GetPointData().GetScalars()
+        facts += [scalars.GetComponentName(i) for i in range(
+            scalars.GetNumberOfComponents() if scalars and scalars.HasAComponentName() else 0)]
     elif data.GetNumberOfPoints():
         facts += [vtk_to_numpy(data.GetPoints().GetData()).round(6).tolist(),
                   vtk_to_numpy(data.GetPolys().GetConnectivityArray()).tolist()]

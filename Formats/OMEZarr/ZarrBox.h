@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Reads a box of a zarr array: the chunks that it touches, and no others.
+#ifndef BrainShift_ZarrBox_h
+#define BrainShift_ZarrBox_h
+
+#include "Formats/OMEZarr/ZarrArray.h"
+
+#include <functional>
+
+namespace brainshift
+{
+/** A box, along each axis of an array, and where its numbers go. */
+struct ZarrBox
+{
+  std::vector<std::int64_t> first; ///< index
+  std::vector<std::int64_t> count; ///< at least 1, within the array
+  char* numbers = nullptr;         ///< where the first number goes
+  std::vector<std::int64_t> steps; ///< numbers from one index to the next, there
+};
+
+/**
+ * Fills a box. A chunk that is not there has the fill value. One that is cut off or damaged throws
+ * the end of a sentence that names it. Returns false if `progress`, which receives the fraction
+ * that is done, says stop.
+ */
+bool readZarrBox(const ZarrStore& store, const ZarrArray& array, const ZarrBox& box,
+  const std::function<bool(double)>& progress);
+}
+
+#endif

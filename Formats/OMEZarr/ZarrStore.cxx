@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/OMEZarr/ZarrStore.h"
+
+#include "Common/Problem.h"
+#include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+namespace fs = std::filesystem;
+
+namespace brainshift
+{
+namespace
+{
+// What lies at the top of a store, of version 3 and 2.
+constexpr std::array<const char*, 4> MetadataNames{ "zarr.json", ".zattrs", ".zgroup", ".zarray" };
+
+class FolderStore : public ZarrStore
+{
+public:
+  explicit FolderStore(std::string folder)
+    : Folder(std::move(folder))
+  {
+  }
+
+  std::optional<std::uint64_t> size(const std::string& key) const override
+  {
+    const std::string path = this->pathOf(key);
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found)
+    {
+      return std::nullopt;
+    }
+    if (status.type() != fs::file_type::regular) // a pipe would wait for ever
+    {
+      throw Problem(error ? "cannot be read: " + error.message() : "is no plain file");
+    }
+    const std::uintmax_t size = fs::file_size(path, error);
+    throwIfAny(error ? "cannot be read: " + error.message() : std::string());
+    return size;
+  }
+
+  std::string part(const std::string& key, std::uint64_t offset, std::uint64_t count) const override
+  {
+    return fileBytes(this->pathOf(key), offset, count);
+  }
+
+private:
+  std::string Folder;
+
+  std::string pathOf(const std::string& key) const { return this->Folder + "/" + key; }
+};
+
+// Empty unless a name is that of a folder, or of metadata in it.
+std::string folderOf(const std::string& fileName)
+{
+  std::error_code error;
+  if (fs::is_directory(fileName, error))
+  {
+    return fileName;
+  }
+  const fs::path path(fileName);
+  const bool isMetadata = std::any_of(MetadataNames.begin(), MetadataNames.end(),
+    [&path](const char* name) { return path.filename() == name; });
+  return !isMetadata || !isPlainFile(fileName) ? std::string()
+    : path.has_parent_path()                   ? path.parent_path().string()
+                                               : std::string(".");
+}
+
+bool beginsLikeZip(const std::string& fileName)
+{
+  return isPlainFile(fileName) && readBeginning(fileName, 2) == "PK";
+}
+
+bool holdsMetadata(const ZarrStore& store)
+{
+  return std::any_of(MetadataNames.begin(), MetadataNames.end(),
+    [&store](const char* name) { return store.size(name).has_value(); });
+}
+}
+
+std::optional<std::string> ZarrStore::read(const std::string& key, std::uint64_t limit) const
+{
+  const std::optional<std::uint64_t> size = this->size(key);
+  if (!size)
+  {
+    return std::nullopt;
+  }
+  if (*size > limit)
+  {
+    throw Problem(
+      "has " + std::to_string(*size) + " bytes; it may have up to " + std::to_string(limit));
+  }
+  return this->part(key, 0, *size);
+}
+
+std::string fileBytes(const std::string& fileName, std::uint64_t offset, std::uint64_t count)
+{
+  std::ifstream stream(fileName, std::ios::binary);
+  std::string bytes(count, '\0');
+  if (!stream.seekg(static_cast<std::streamoff>(offset)) ||
+    !stream.read(bytes.data(), static_cast<std::streamsize>(count)))
+  {
+    throw Problem("cannot be read: no " + std::to_string(count) + " bytes from byte " +
+      std::to_string(offset) + " on");
+  }
+  return bytes;
+}
+
+std::unique_ptr<ZarrStore> openZarrStore(const std::string& fileName)
+{
+  const std::string folder = folderOf(fileName);
+  std::unique_ptr<ZarrStore> store;
+  if (!folder.empty())
+  {
+    store = std::make_unique<FolderStore>(folder);
+  }
+  else if (beginsLikeZip(fileName))
+  {
+    store = openZipStore(fileName);
+  }
+  else
+  {
+    throw Problem("is neither a folder, nor a file of metadata (zarr.json, .zattrs, .zgroup, "
+                  ".zarray), nor a zip file");
+  }
+  if (!holdsMetadata(*store))
+  {
+    throw Problem("holds no metadata of zarr: neither zarr.json nor .zattrs");
+  }
+  return store;
+}
+
+bool isZarrStore(const std::string& fileName)
+{
+  return problemOf([&] { openZarrStore(fileName); }).empty();
+}
+
+std::string keyIn(const std::string& group, const std::string& name)
+{
+  return group.empty() ? name : group + "/" + name;
+}
+
+void requireInside(const std::string& path)
+{
+  for (std::size_t begin = 0; begin <= path.size();)
+  {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    const std::string word = path.substr(begin, end - begin);
+    if (word.empty() || word == "." || word == ".." || word.find('\0') != std::string::npos)
+    {
+      throw Problem("has the path '" + shownWords(path) +
+        "'; it must be words between slashes that stay in the store");
+    }
+    begin = end + 1;
+  }
+}
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// The entries of a zarr store by their keys: a folder, or a zip file.
+///
+/// A key is a path with slashes below the top of the store, such as "0/zarr.json". None leads out
+/// of it. Faults are thrown as a Problem: the end of a sentence about the entry.
+#ifndef BrainShift_ZarrStore_h
+#define BrainShift_ZarrStore_h
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace brainshift
+{
+/** Several threads may read at once. */
+class ZarrStore
+{
+public:
+  ZarrStore() = default;
+  virtual ~ZarrStore() = default;
+  ZarrStore(const ZarrStore&) = delete;
+  ZarrStore& operator=(const ZarrStore&) = delete;
+
+  /** Bytes of an entry; none if it is not there. */
+  virtual std::optional<std::uint64_t> size(const std::string& key) const = 0;
+
+  /** Bytes of an entry that is there: `count` from `offset` on, all within its size. */
+  virtual std::string part(
+    const std::string& key, std::uint64_t offset, std::uint64_t count) const = 0;
+
+  /** A whole entry of up to `limit` bytes; none if it is not there. */
+  std::optional<std::string> read(const std::string& key, std::uint64_t limit) const;
+};
+
+/** Bytes of a plain file, or throws the end of a sentence. */
+std::string fileBytes(const std::string& fileName, std::uint64_t offset, std::uint64_t count);
+
+/** The store in a zip file, from the folder in it on that holds the outermost metadata. */
+std::unique_ptr<ZarrStore> openZipStore(const std::string& fileName);
+
+/**
+ * The store that a user means by a folder, by a file of metadata in it (zarr.json, .zattrs, .zgroup
+ * or .zarray), or by a zip file. Throws the end of a sentence about the name.
+ */
+std::unique_ptr<ZarrStore> openZarrStore(const std::string& fileName);
+
+/** Whether a name is one that openZarrStore takes, and there is metadata of zarr. */
+bool isZarrStore(const std::string& fileName);
+
+/** The key of a path in a group, both without slashes at their ends. The group may be empty. */
+std::string keyIn(const std::string& group, const std::string& name);
+
+/**
+ * Throws the end of a sentence unless a path of the metadata stays in its group: words between
+ * slashes that are neither empty nor "." nor "..".
+ */
+void requireInside(const std::string& path);
+}
+
+#endif
