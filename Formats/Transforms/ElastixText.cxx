@@ -253,7 +253,7 @@ void addField(const Entries& entries, const std::string& fileName, const AddFile
   auto* field = transform.links.empty() ? nullptr : std::get_if<FieldLink>(&transform.links.back());
   if (field)
   {
-    field->isNearest = order == "0";
+    field->between = order == "0" ? Between::Nearest : Between::Linear;
   }
 }
 

@@ -10,8 +10,8 @@ from .views import world_axes
 #: Reverses x and y: from LPS, in which ITK's files are, to RAS and back.
 _LPS = (-1.0, -1.0, 1.0, 1.0)
 _DIRECTIONS = ("backward", "forward")
-#: Programs that write 16 numbers as text, and their words in the property MatrixProgram.
-_PROGRAMS = {None: "Unknown", "fsl": "FSL", "niftyreg": "NiftyReg"}
+#: Programs whose files do not name them, and their words in the property MatrixProgram.
+_PROGRAMS = {None: "Unknown", "fsl": "FSL", "niftyreg": "NiftyReg", "spm": "SPM"}
 
 
 def _direction(direction):
@@ -30,7 +30,8 @@ def _names(files):
 def _program(program):
     word = program.lower() if isinstance(program, str) else program
     if word not in _PROGRAMS:
-        raise ValueError(f"program is {program!r}; it must be 'fsl', 'niftyreg' or None")
+        raise ValueError(f"program is {program!r}; it must be 'fsl', 'niftyreg', 'spm' or "
+                         "None")
     return _PROGRAMS[word]
 
 
@@ -100,7 +101,7 @@ class Transform:
 
 
 def read_transform(files, world="RAS", fixed_image=None, moving_image=None, program=None):
-    """Read a transform of ITK, Slicer, ANTs, elastix, NiftyReg or FSL.
+    """Read a transform of ITK, Slicer, ANTs, elastix, FSL, FreeSurfer, SPM, NiftyReg or MINC.
 
     Such a transform takes points of the fixed image to the moving one. Images are resampled with
     it.
@@ -110,10 +111,13 @@ def read_transform(files, world="RAS", fixed_image=None, moving_image=None, prog
       files are read where the volumes are.
     - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of your points and volumes.
     - `fixed_image`, `moving_image`: the NIfTI files of the options `-ref` and `-in` of FSL's
-      `flirt`. FSL's matrices are undefined without them. Other files do not need them.
-    - `program`: `"fsl"` or `"niftyreg"`, the program that wrote a text file of 16 numbers. The file
-      does not say it. `"niftyreg"` is a matrix from RAS to RAS, from the fixed image to the moving
-      one. The default, `None`, counts as `"fsl"` if an image is named; else such a file is refused.
+      `flirt` and `fnirt`. FSL's matrices and coefficients are undefined without both, its warps
+      without the moving image. An `.lta` leads from its `src` to its `dst`: without images, `src`
+      is the moving image, as FreeSurfer has it. Other files do not need images.
+    - `program`: the program that wrote a file that does not name it. `"fsl"`, a text of 16 numbers.
+      `"niftyreg"`, such a text from RAS to RAS, from the fixed image to the moving one. `"spm"`, a
+      NIfTI file of three numbers at each voxel: positions in RAS, as in SPM's `y_` and `iy_` files.
+      The default, `None`, counts as `"fsl"` if an image is named; else such a file is refused.
 
     Returns a `Transform` with `kind`, `moving_from_fixed` and `map(points)`.
 
