@@ -135,6 +135,18 @@ public:
   /** Where the file's own map takes the points (mm, world): three numbers each. Owned by this. */
   vtkDoubleArray* GetMappedPoints();
 
+  /** Which points the file's own map takes to the points (mm, world), likewise. */
+  vtkDoubleArray* GetMappedBackPoints();
+
+  /**
+   * The ends along x, y and z of the points of the file's own B-spline or field (mm, world); empty
+   * if it has none. Owned by this.
+   */
+  vtkDoubleArray* GetOwnBounds();
+
+  /** What each file says and leads to, one line each: the ends of sentences after its name. */
+  std::string GetStories();
+
   /** The file's own map (mm, world); the identity after a problem. */
   const brainshift::PointTransform& GetChain();
 
@@ -183,6 +195,8 @@ private:
 
   // Reads the files again if a property has changed since. Returns why it cannot.
   const std::string& Load();
+  // Maps the points, or maps them back.
+  vtkDoubleArray* MapPoints(bool isBack, vtkDoubleArray* to);
   // Takes the grid of the output: of the volume, or of the field in the files.
   void ChooseGrid(vtkInformation* volume);
   void FillField(vtkImageData* field, vtkInformation* volume);

@@ -257,7 +257,7 @@ bool isLTAText(const std::string& text)
   return words == std::vector<std::string>{ "type" } && text.find("nxforms") != std::string::npos;
 }
 
-void addLTAText(const std::string& text, const NamedImages& images, PointTransform& transform)
+bool addLTAText(const std::string& text, const NamedImages& images, PointTransform& transform)
 {
   const LTA lta = ltaOf(text);
   const std::vector<double> type = numbersIn(valueOf(lta.entries, "type"));
@@ -296,6 +296,7 @@ void addLTAText(const std::string& text, const NamedImages& images, PointTransfo
       " and the moving image " + images.moving + "; name the two that it was made of");
   }
   transform.links.emplace_back(linkOf(isSrcMoving ? glm::inverse(dstFromSrc) : dstFromSrc));
+  return isSrcMoving;
 }
 
 namespace

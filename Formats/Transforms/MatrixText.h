@@ -26,9 +26,10 @@ bool isLTAText(const std::string& text);
 /**
  * Adds the map of an LTA, in RAS, from the fixed to the moving image, or throws the end of a
  * sentence. The moving image is src, unless NiTransforms wrote the file, which has the fixed one
- * there, or the images that are named have the geometry of the other end.
+ * there, or the images that are named have the geometry of the other end. Returns whether src is
+ * the moving image, so that the map was turned round.
  */
-void addLTAText(const std::string& text, const NamedImages& images, PointTransform& transform);
+bool addLTAText(const std::string& text, const NamedImages& images, PointTransform& transform);
 
 /** Whether a text is the MNI's XFM. */
 bool isXFMText(const std::string& text);

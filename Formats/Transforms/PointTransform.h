@@ -96,6 +96,7 @@ struct PointTransform
 {
   std::vector<TransformLink> links;
   bool knowsSides = true; ///< false: RAS is a guess, as of an image that a link counts from
+  std::vector<std::string> stories{}; ///< what each file says and leads to, one sentence each
 };
 
 /** Where the chain takes a point (mm). NaN where a field has no number. */

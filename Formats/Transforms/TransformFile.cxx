@@ -74,6 +74,26 @@ glm::dmat4 matrixOf(const std::vector<double>& rows)
   return matrix;
 }
 
+constexpr const char* OfITK = "a transform of ITK, as Slicer and ANTs write it, too";
+constexpr const char* AsStored = "It takes points of the fixed image to the moving one, as stored.";
+constexpr const char* Turned =
+  "It takes points of the moving image to the fixed one; BrainShift turns it round.";
+
+// Remembers what a file says of its direction.
+void tell(const std::string& what, const char* leads, PointTransform& transform)
+{
+  transform.stories.push_back("holds " + what + ". " + leads);
+}
+
+// What a field says of its direction.
+std::string storyOf(const std::optional<Direction>& direction)
+{
+  return !direction ? "a displacement field that does not name its direction, which counts as a "
+                      "backward one, as those of ITK, ANTs and elastix are"
+                    : std::string("a displacement field that says that it is a ") +
+      (*direction == Direction::Forward ? "forward" : "backward") + " one";
+}
+
 // Reads files one after another into a chain of LPS.
 class Reader
 {
@@ -95,11 +115,13 @@ public:
       niftiWarpOf(fileName, this->Files.program == MatrixProgram::SPM);
     if (warp && *warp == NIFTIWarpKind::Positions)
     {
+      tell("positions of SPM at the voxels of the fixed image, as you say", AsStored, transform);
       addPositions(fileName, transform);
     }
     else if (warp)
     {
       const NamedImages images{ this->Files.fixedImage, this->Files.movingImage };
+      tell("a warp of FSL, in the millimetres of its images", AsStored, transform);
       addFSLWarp(fileName, *warp, images, transform);
     }
     else if (hasFieldEnding(fileName)) // a file that is no field then says why
@@ -108,6 +130,7 @@ public:
     }
     else if (isHDF5(fileName))
     {
+      tell(OfITK, AsStored, transform);
       addRecords(readHDF5Records(fileName), transform);
     }
     else
@@ -121,17 +144,22 @@ private:
   {
     DirectedField field;
     withBeginning("is a field that cannot be read: ", [&] { readFieldFile(fileName, field); });
-    if (field.direction == Direction::Forward)
+    const bool isForward = field.direction == Direction::Forward;
+    tell(storyOf(field.direction), isForward ? Turned : AsStored, transform);
+    PointTransform stored;
+    addField(std::move(field), isForward ? stored : transform);
+    if (isForward)
     {
-      throw Problem("is a forward field; Displacement Field Reader reads it");
+      transform.knowsSides = transform.knowsSides && stored.knowsSides;
+      transform.links.push_back(inverseOf(std::move(stored)));
     }
-    addField(std::move(field), transform);
   }
 
   void addBytes(const std::string& fileName, const std::string& bytes, PointTransform& transform)
   {
     if (bytes.rfind(ITKTextBegin, 0) == 0)
     {
+      tell(OfITK, AsStored, transform);
       addRecords(readITKText(bytes), transform);
     }
     else if (isLTAText(bytes) || isXFMText(bytes))
@@ -139,11 +167,17 @@ private:
       PointTransform ras;
       if (isXFMText(bytes))
       {
+        tell(
+          "an XFM of the MNI, from its source, the moving image, to its target", Turned, transform);
         addXFMText(bytes, fileName, ras);
       }
       else
       {
-        addLTAText(bytes, { this->Files.fixedImage, this->Files.movingImage }, ras);
+        const bool isTurned =
+          addLTAText(bytes, { this->Files.fixedImage, this->Files.movingImage }, ras);
+        tell(std::string("an LTA of FreeSurfer, from its src to its dst; its src is the ") +
+            (isTurned ? "moving" : "fixed") + " image",
+          isTurned ? Turned : AsStored, transform);
       }
       reverseXY(ras);
       std::move(ras.links.begin(), ras.links.end(), std::back_inserter(transform.links));
@@ -153,6 +187,7 @@ private:
       const auto addNamed = [this](const std::string& named, PointTransform& chain) {
         withBeginning("names the file " + named + ", which ", [&] { this->add(named, chain); });
       };
+      tell("a transform of elastix", AsStored, transform);
       addElastixText(bytes, fileName, addNamed, transform);
     }
     else if (const std::optional<std::vector<double>> rows = matrixText(bytes))
@@ -161,6 +196,7 @@ private:
     }
     else if (std::filesystem::path(fileName).extension() == ".mat")
     {
+      tell(OfITK, AsStored, transform);
       addRecords(readMatlabRecords(bytes), transform);
     }
     else
@@ -189,9 +225,11 @@ private:
     }
     if (program == MatrixProgram::NiftyReg)
     {
+      tell("a matrix of NiftyReg, as you say", AsStored, transform);
       addMatrix(rowsOf(signs * matrix * signs), transform);
       return;
     }
+    tell("a matrix of FSL's flirt, in the millimetres of its images", Turned, transform);
     constexpr const char* Matrix = "a matrix of FSL's flirt, whose points depend on both images";
     const glm::dmat4 fixed =
       readFSLFrame({ "fixed", Matrix }, this->Files.fixedImage, transform.knowsSides).worldFromFSL;

@@ -86,6 +86,15 @@ class Transform:
         Returns an N x 3 array of positions in mm, world axes. A point outside a B-spline or a field
         does not move, as in ITK. A point where the field has no finite number becomes NaN.
         """
+        return self._mapped(points, "MappedPoints")
+
+    def map_back(self, points):
+        """Take points of the moving image to the fixed one: the inverse of `map`, solved for each
+        point. Points and result as in `map`. Where the map folds, one of its places is returned.
+        """
+        return self._mapped(points, "MappedBackPoints")
+
+    def _mapped(self, points, answer):
         import numpy
         points = numpy.asarray(points, float)
         if points.ndim != 2 or points.shape[1] != 3:
@@ -97,7 +106,7 @@ class Transform:
         self._report.GetProperty("Points").SetElements(numbers)
         self._report.UpdateVTKObjects()
         self._report.UpdatePropertyInformation()
-        return _answer(self._report, "MappedPoints").reshape(-1, 3)
+        return _answer(self._report, answer).reshape(-1, 3)
 
 
 def read_transform(files, world="RAS", fixed_image=None, moving_image=None, program=None):
@@ -119,7 +128,7 @@ def read_transform(files, world="RAS", fixed_image=None, moving_image=None, prog
       NIfTI file of three numbers at each voxel: positions in RAS, as in SPM's `y_` and `iy_` files.
       The default, `None`, counts as `"fsl"` if an image is named; else such a file is refused.
 
-    Returns a `Transform` with `kind`, `moving_from_fixed` and `map(points)`.
+    Returns a `Transform` with `kind`, `moving_from_fixed`, `map(points)` and `map_back(points)`.
 
     Raises `OSError` with the reason if a file cannot be read.
     """
