@@ -58,6 +58,8 @@ struct vtkTransformReader::State
   Grid OutputGrid;
   bool Good = false; // OutputGrid is known
   vtkNew<vtkDoubleArray> Mapped;
+  vtkNew<vtkDoubleArray> MappedBack;
+  vtkNew<vtkDoubleArray> Bounds;
   vtkNew<vtkDoubleArray> Rows;
 };
 
@@ -167,21 +169,71 @@ vtkDoubleArray* vtkTransformReader::GetMatrix()
 
 vtkDoubleArray* vtkTransformReader::GetMappedPoints()
 {
-  State& state = *this->Internal;
+  return this->MapPoints(false, this->Internal->Mapped);
+}
+
+vtkDoubleArray* vtkTransformReader::GetMappedBackPoints()
+{
+  return this->MapPoints(true, this->Internal->MappedBack);
+}
+
+vtkDoubleArray* vtkTransformReader::MapPoints(bool isBack, vtkDoubleArray* to)
+{
+  const State& state = *this->Internal;
   const auto points = this->Load().empty() ? static_cast<vtkIdType>(state.Points.size()) : 0;
-  state.Mapped->SetNumberOfValues(3 * points);
-  double* const to = state.Mapped->GetPointer(0);
+  to->SetNumberOfValues(3 * points);
+  double* const numbers = to->GetPointer(0);
   parallelFor(0, points, PointsAtLeast, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
-      const glm::dvec3 point = mapped(state.Chain, state.Points[i]);
+      const glm::dvec3 point =
+        isBack ? mappedBack(state.Chain, state.Points[i]) : mapped(state.Chain, state.Points[i]);
       for (int axis = 0; axis < 3; ++axis)
       {
-        to[3 * i + axis] = point[axis];
+        numbers[3 * i + axis] = point[axis];
       }
     }
   });
-  return state.Mapped;
+  return to;
+}
+
+vtkDoubleArray* vtkTransformReader::GetOwnBounds()
+{
+  State& state = *this->Internal;
+  state.Bounds->SetNumberOfValues(0);
+  const std::optional<Grid> grid = this->Load().empty() ? ownGridOf(state.Chain) : std::nullopt;
+  if (!grid)
+  {
+    return state.Bounds;
+  }
+  glm::dvec3 low = grid->origin;
+  glm::dvec3 high = grid->origin;
+  for (int corner = 1; corner < 8; ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+    const glm::dvec3 at = grid->worldFromGrid(side * glm::dvec3(grid->dimensions - 1));
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    state.Bounds->InsertNextValue(low[axis]);
+    state.Bounds->InsertNextValue(high[axis]);
+  }
+  return state.Bounds;
+}
+
+std::string vtkTransformReader::GetStories()
+{
+  std::string lines;
+  if (this->Load().empty())
+  {
+    for (const std::string& story : this->Internal->Chain.stories)
+    {
+      lines += (lines.empty() ? "" : "\n") + story;
+    }
+  }
+  return lines;
 }
 
 int vtkTransformReader::FillInputPortInformation(int, vtkInformation* info)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTransformReader
- * @brief   reads the transforms of ITK, ANTs, elastix, NiftyReg and FSL as displacement fields
+ * @brief   reads the transforms of registration programs as displacement fields
  *
  * TransformFile.h lists the formats. Output: an image with the point array Displacement as its
  * vectors (float32 x 3, mm, world axes) and a field array that names the direction.
@@ -63,7 +63,10 @@ public:
   ///@}
 
   ///@{
-  /** The NIfTI files that FSL's flirt was given. Only its matrices need them. Default: none. */
+  /**
+   * The NIfTI files that FSL's flirt or fnirt was given. Its matrices and warps need them; of an
+   * LTA they say which end they are. Default: none.
+   */
   vtkSetMacro(FixedImage, std::string);
   vtkGetMacro(FixedImage, std::string);
   vtkSetMacro(MovingImage, std::string);
@@ -75,11 +78,15 @@ public:
     UnknownProgram = 0, ///< FSL if an image is named; else such a file is an error
     FSL = 1,            ///< flirt's own millimetres, moving image to fixed image; needs both images
     NiftyReg = 2,       ///< RAS to RAS, fixed image to moving image
+    SPM = 3,            ///< NIfTI files without an intent hold positions in RAS
   };
 
   ///@{
-  /** The program that wrote a text of 16 numbers. Other files do not need it. Default unknown. */
-  vtkSetClampMacro(MatrixProgram, int, UnknownProgram, NiftyReg);
+  /**
+   * The program that wrote a text of 16 numbers, or a NIfTI file without an intent. Other files do
+   * not need it. Default unknown.
+   */
+  vtkSetClampMacro(MatrixProgram, int, UnknownProgram, SPM);
   vtkGetMacro(MatrixProgram, int);
   ///@}
 
@@ -127,6 +134,18 @@ public:
 
   /** Where the file's own map takes the points (mm, world): three numbers each. Owned by this. */
   vtkDoubleArray* GetMappedPoints();
+
+  /** Which points the file's own map takes to the points (mm, world), likewise. */
+  vtkDoubleArray* GetMappedBackPoints();
+
+  /**
+   * The ends along x, y and z of the points of the file's own B-spline or field (mm, world); empty
+   * if it has none. Owned by this.
+   */
+  vtkDoubleArray* GetOwnBounds();
+
+  /** What each file says and leads to, one line each: the ends of sentences after its name. */
+  std::string GetStories();
 
   /** The file's own map (mm, world); the identity after a problem. */
   const brainshift::PointTransform& GetChain();
@@ -176,6 +195,8 @@ private:
 
   // Reads the files again if a property has changed since. Returns why it cannot.
   const std::string& Load();
+  // Maps the points, or maps them back.
+  vtkDoubleArray* MapPoints(bool isBack, vtkDoubleArray* to);
   // Takes the grid of the output: of the volume, or of the field in the files.
   void ChooseGrid(vtkInformation* volume);
   void FillField(vtkImageData* field, vtkInformation* volume);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Files/PackedBytes.h"
 
+#include "Common/HostMemory.h"
 #include "Common/Problem.h"
+#include "Formats/Files/PlainFile.h"
 
 #include "vtk_zlib.h"
 
@@ -180,5 +182,59 @@ void readBytes(
   {
     readAll(file, to, count, fractionDone);
   }
+}
+
+std::string readUnpackedBeginning(const std::string& fileName, std::size_t bytes)
+{
+  if (!isPlainFile(fileName) || !beginsLikeGzip(fileName))
+  {
+    return readBeginning(fileName, bytes);
+  }
+  std::string found(bytes, '\0');
+  const gzFile file = gzopen(fileName.c_str(), "rb");
+  const int read = file ? gzread(file, found.data(), static_cast<unsigned>(bytes)) : 0;
+  if (file)
+  {
+    gzclose(file);
+  }
+  found.resize(static_cast<std::size_t>(std::max(read, 0)));
+  return found;
+}
+
+std::vector<char> unpackedGzip(const std::vector<char>& packed, double timesInMemory)
+{
+  constexpr std::size_t Piece = std::size_t(1) << 24;
+  constexpr int Gzip = 16; // beside the size of the window
+  z_stream stream{};
+  std::vector<char> bytes;
+  int result = inflateInit2(&stream, MAX_WBITS + Gzip);
+  std::size_t taken = 0;
+  std::size_t made = 0;
+  const std::string problem = problemOf([&] {
+    while (result == Z_OK)
+    {
+      withBeginning("cannot be read: ", [&] {
+        requireHostMemory("what it unpacks to", timesInMemory * static_cast<double>(made + Piece));
+      });
+      bytes.resize(made + Piece);
+      const std::size_t in = std::min(Piece, packed.size() - taken);
+      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data())) + taken;
+      stream.avail_in = static_cast<uInt>(in);
+      stream.next_out = reinterpret_cast<Bytef*>(bytes.data()) + made;
+      stream.avail_out = static_cast<uInt>(Piece);
+      result = inflate(&stream, Z_NO_FLUSH);
+      taken += in - stream.avail_in;
+      made += Piece - stream.avail_out;
+      if (result == Z_STREAM_END && taken < packed.size())
+      {
+        result = inflateReset(&stream); // members may follow one another
+      }
+    }
+  });
+  inflateEnd(&stream);
+  throwIfAny(problem);
+  throwIfAny(result == Z_STREAM_END ? "" : "is damaged: it cannot be unpacked to its end");
+  bytes.resize(made);
+  return bytes;
 }
 }

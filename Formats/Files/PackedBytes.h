@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace brainshift
 {
@@ -25,6 +26,15 @@ using FractionDone = std::function<bool(double fraction)>;
 
 /** Whether a file begins like one that is packed with gzip. */
 bool beginsLikeGzip(const std::string& fileName);
+
+/** The first bytes of a plain file, unpacked if it is packed with gzip; fewer if it is shorter. */
+std::string readUnpackedBeginning(const std::string& fileName, std::size_t bytes);
+
+/**
+ * All bytes of a file that is packed with gzip, or throws the end of a sentence. Memory is asked
+ * for as they grow, `timesInMemory` bytes in all for each.
+ */
+std::vector<char> unpackedGzip(const std::vector<char>& packed, double timesInMemory);
 
 /**
  * Throws the end of a sentence if the bytes cannot all be there, by the size of the file. It opens

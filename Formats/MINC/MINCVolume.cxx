@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 
 namespace brainshift
 {
@@ -111,9 +112,10 @@ bool describe(midimhandle_t dimension, StoredAxis& axis)
   const bool isGood = miget_dimension_name(dimension, &name) == MI_NOERROR &&
     miget_dimension_class(dimension, &axis.kind) == MI_NOERROR &&
     miget_dimension_size(dimension, &axis.count) == MI_NOERROR &&
-    miget_dimension_start(dimension, MI_ORDER_FILE, &axis.start) == MI_NOERROR &&
-    (miget_dimension_separation(dimension, MI_ORDER_FILE, &axis.step) == MI_NOERROR ||
-      !axis.isEven);
+    (axis.kind == MI_DIMCLASS_RECORD || // components have no place
+      (miget_dimension_start(dimension, MI_ORDER_FILE, &axis.start) == MI_NOERROR &&
+        (miget_dimension_separation(dimension, MI_ORDER_FILE, &axis.step) == MI_NOERROR ||
+          !axis.isEven)));
   if (name)
   {
     axis.name = name;
@@ -327,17 +329,18 @@ void arrange(std::vector<StoredAxis>& stored, std::vector<Axis>& axes, VolumeHea
   for (StoredAxis& axis : stored)
   {
     const bool isSpace = axis.kind == MI_DIMCLASS_SPATIAL;
-    const bool isLast = &axis == &stored.back();
+    const bool hasOther = std::any_of(
+      axes.begin(), axes.end(), [](const Axis& other) { return other.use == AxisUse::Components; });
     const std::uint64_t limit = isSpace ? LongestSide : MostSteps;
     if (axis.count < 1 || axis.count > limit)
     {
       throw Problem("has " + std::to_string(axis.count) + " entries along " + axis.name +
         "; it must have from 1 to " + std::to_string(limit));
     }
-    if (!isSpace && axis.kind != MI_DIMCLASS_TIME && !isLast)
+    if (!isSpace && axis.kind != MI_DIMCLASS_TIME && hasOther)
     {
-      throw Problem("has the dimension " + axis.name +
-        ", which is none of space or time; only the last " + "one may be");
+      throw Problem(
+        "has the dimension " + axis.name + ", which is none of space or time; only one may be");
     }
     axes.push_back({ isSpace            ? AxisUse::Space
         : axis.kind == MI_DIMCLASS_TIME ? AxisUse::Time
@@ -403,6 +406,10 @@ public:
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
 private:
+  // Reads the voxels of a time: one component, or all that lie together. False if told to stop.
+  bool loadPart(mihandle_t file, std::size_t volume, std::optional<int> component,
+    const Progress& progress, vtkDataArray* numbers) const;
+
   std::string FileName;
   std::vector<Axis> Axes;    // the slowest first
   bool AreRealValues = true; // stored numbers are scaled
@@ -442,46 +449,79 @@ void MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 
 void MINCVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
-  constexpr misize_t Slices = 32; // a block of compressed voxels has as many
   const OpenVolume file(this->FileName);
   if (!file.isGood())
   {
     throw Problem("libminc cannot open it any more");
   }
   const glm::ivec3& sides = this->Header.dimensions;
+  const int components = this->Header.components;
+  const vtkIdType count = vtkIdType(sides.x) * sides.y * sides.z;
   auto numbers =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Header.storedType));
-  numbers->SetNumberOfComponents(this->Header.components);
-  numbers->SetNumberOfTuples(vtkIdType(sides.x) * sides.y * sides.z);
+  numbers->SetNumberOfComponents(components);
+  numbers->SetNumberOfTuples(count);
+  const bool areTogether = this->Axes.back().use == AxisUse::Components || components == 1;
+  if (areTogether)
+  {
+    if (!this->loadPart(file.get(), volume, {}, progress, numbers))
+    {
+      return;
+    }
+    voxels.show(sides, numbers);
+    return;
+  }
+  auto part =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Header.storedType));
+  part->SetNumberOfTuples(count);
+  for (int component = 0; component < components; ++component)
+  {
+    const auto partly = [&](double fraction) {
+      return progress((component + fraction) / components);
+    };
+    if (!this->loadPart(file.get(), volume, component, partly, part))
+    {
+      return;
+    }
+    numbers->CopyComponent(component, part, 0);
+  }
+  voxels.show(sides, numbers);
+}
+
+bool MINCVolume::loadPart(mihandle_t file, std::size_t volume, std::optional<int> component,
+  const Progress& progress, vtkDataArray* numbers) const
+{
+  constexpr misize_t Slices = 32; // a block of compressed voxels has as many
+  const glm::ivec3& sides = this->Header.dimensions;
   Hyperslab slab{ std::vector<misize_t>(this->Axes.size(), 0),
     std::vector<misize_t>(this->Axes.size(), 1) };
   std::size_t slowest = this->Axes.size();
   for (std::size_t i = 0; i < this->Axes.size(); ++i)
   {
-    const bool isTime = this->Axes[i].use == AxisUse::Time;
-    slab.start[i] = isTime ? volume : 0;
-    slab.count[i] = isTime ? 1 : this->Axes[i].count;
-    slowest = this->Axes[i].use == AxisUse::Space ? std::min(slowest, i) : slowest;
+    const AxisUse use = this->Axes[i].use;
+    const bool isOne = use == AxisUse::Time || (use == AxisUse::Components && component);
+    slab.start[i] = use == AxisUse::Time ? volume : isOne ? static_cast<misize_t>(*component) : 0;
+    slab.count[i] = isOne ? 1 : this->Axes[i].count;
+    slowest = use == AxisUse::Space ? std::min(slowest, i) : slowest;
   }
   const misize_t slices = slab.count[slowest];
-  const vtkIdType sliceValues = vtkIdType(sides.x) * sides.y * this->Header.components;
+  const vtkIdType sliceValues = vtkIdType(sides.x) * sides.y * numbers->GetNumberOfComponents();
   for (misize_t slice = 0; slice < slices; slice += Slices)
   {
     slab.start[slowest] = slice;
     slab.count[slowest] = std::min(Slices, slices - slice);
-    if (!readSlices(file.get(), slab, this->AreRealValues, numbers,
-          static_cast<vtkIdType>(slice) * sliceValues))
+    if (!readSlices(
+          file, slab, this->AreRealValues, numbers, static_cast<vtkIdType>(slice) * sliceValues))
     {
       throw Problem("libminc cannot read its slices from " + std::to_string(slice) + " on");
     }
     if (!progress(static_cast<double>(slice + slab.count[slowest]) / static_cast<double>(slices)))
     {
-      return;
+      return false;
     }
   }
-  voxels.show(sides, numbers);
+  return true;
 }
-
 }
 
 extern const VolumeFormat VolumesOfMINC{ "MINC", isMINCFile, makeVolumeFile<MINCVolume> };

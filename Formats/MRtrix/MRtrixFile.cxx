@@ -6,11 +6,13 @@
 /// end a streamline, and three infinite numbers end the file.
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
-#include "Formats/Files/PlainFile.h"
+#include "Formats/Files/PackedBytes.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Files/WholeFile.h"
 #include "Formats/Surfaces/SurfaceFile.h"
 
 #include <cmath>
+#include <limits>
 
 namespace brainshift
 {
@@ -202,11 +204,11 @@ void readTriples(std::vector<char>& bytes, const TrackText& header,
 
 bool isMRtrixFile(const std::string& fileName)
 {
-  return readBeginning(fileName, Magic.size()) == Magic;
+  return readUnpackedBeginning(fileName, Magic.size()) == Magic;
 }
 
 void readMRtrix(
-  std::vector<char>& bytes, const std::string&, const FractionDone& fractionDone, Tracts& tracts)
+  std::vector<char>& bytes, const TractSource&, const FractionDone& fractionDone, Tracts& tracts)
 {
   const TrackText header = readHeader(bytes);
   if (header.size == 8)
@@ -218,7 +220,46 @@ void readMRtrix(
     readTriples<float>(bytes, header, fractionDone, tracts);
   }
 }
+
+// Such files hold points only.
+void writeMRtrix(
+  const std::string& fileName, const Tracts& tracts, const TractBox&, TractNotes& notes)
+{
+  std::string names;
+  for (const auto* list : { &tracts.ofPoints, &tracts.ofStreamlines })
+  {
+    for (const NamedNumbers& numbers : *list)
+    {
+      names += (names.empty() ? "" : ", ") + numbers.name;
+    }
+  }
+  if (!names.empty())
+  {
+    notes.push_back("holds points only, and leaves out " + names + "; .trx keeps them");
+  }
+  const std::string beginning = std::string(Magic) + "\ndatatype: Float32" +
+    (thisMachineIsBigEndian() ? "BE" : "LE") +
+    "\ncount: " + std::to_string(tracts.firsts.size() - 1) + "\nfile: . ";
+  constexpr std::size_t Offset = 128; // of the first number
+  std::string header = beginning + std::to_string(Offset) + "\nEND\n";
+  header.resize(Offset, '\n');
+  const auto write = [](std::ostream& file, const glm::vec3& triple) {
+    file.write(reinterpret_cast<const char*>(&triple), sizeof(triple));
+  };
+  writeWholeStream(fileName, [&](std::ostream& file) {
+    file << header;
+    for (std::size_t line = 0; line + 1 < tracts.firsts.size(); ++line)
+    {
+      for (std::int64_t point = tracts.firsts[line]; point < tracts.firsts[line + 1]; ++point)
+      {
+        write(file, tracts.points[static_cast<std::size_t>(point)]);
+      }
+      write(file, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    }
+    write(file, glm::vec3(std::numeric_limits<float>::infinity()));
+  });
+}
 }
 
-extern const TractFormat TractsOfMRtrix{ isMRtrixFile, readMRtrix };
+extern const TractFormat TractsOfMRtrix{ isMRtrixFile, readMRtrix, ".tck", writeMRtrix };
 }

@@ -107,9 +107,12 @@ void requireIntent(const Intent& intent)
 {
   if (const auto ofFSL = FSLNames.find(intent.code); ofFSL != FSLNames.end())
   {
-    throw Problem(joined("has the intent ", intent.code, " (", ofFSL->second,
-      "), which BrainShift does not read; a displacement field must have 1006 (DISPVECT: RAS, "
-      "mm)"));
+    const bool isWarp = intent.code == 2006 || intent.code == 2007;
+    throw Problem(joined("has the intent ", intent.code, " (", ofFSL->second, "), ",
+      isWarp ? "whose numbers depend on the images of fnirt: open it with Transform Reader, and "
+               "name Moving Image (--in) and, of coefficients, Fixed Image (--ref)"
+             : "which BrainShift does not read; a displacement field must have 1006 (DISPVECT: "
+               "RAS, mm)"));
   }
   if (!intent.isVectors)
   {
@@ -119,7 +122,8 @@ void requireIntent(const Intent& intent)
     intent.code != vtkNIFTIImageHeader::IntentVector)
   {
     throw Problem("has the intent " + std::to_string(intent.code) +
-      "; a displacement field must have 1006 (DISPVECT) or 1007 (VECTOR)");
+      "; a displacement field must have 1006 (DISPVECT) or 1007 (VECTOR). If SPM wrote it, open it "
+      "with Transform Reader and choose SPM as its program");
   }
   requireName(intent);
   if (mmPerNIFTIUnit(intent.xyztUnits) != 1.0)

@@ -16,6 +16,12 @@ void setSurface(vtkPolyData* data, const Surface& surface);
 
 /** Lines with single precision points, and arrays of points and lines. */
 void setTracts(vtkPolyData* data, const Tracts& tracts);
+
+/**
+ * The lines of data in RAS, with their arrays; data in LPS is turned, and data of unknown axes
+ * gives a note. Throws the end of a sentence if there are other cells than lines.
+ */
+Tracts tractsOf(vtkPolyData* data);
 }
 
 #endif

@@ -184,8 +184,14 @@ std::size_t bytesOf(NumberType type)
 {
   switch (type)
   {
+    case NumberType::Int8:
     case NumberType::UInt8:
       return 1;
+    case NumberType::Int16:
+    case NumberType::UInt16:
+      return 2;
+    case NumberType::Int64:
+    case NumberType::UInt64:
     case NumberType::Float64:
       return 8;
     default:
@@ -292,20 +298,93 @@ void readSurfaceFiles(const SurfaceFiles& files, const FractionDone& fractionDon
   warnings.insert(warnings.end(), notes.begin(), notes.end());
 }
 
-void readTractFile(const std::string& fileName, const std::string& volumeName,
-  const FractionDone& fractionDone, Tracts& tracts, std::vector<std::string>& warnings)
+namespace
+{
+// The bytes of a file of streamlines; none of a folder. Nothing if it was told to stop.
+std::optional<std::vector<char>> tractBytes(
+  const std::string& fileName, const FractionDone& fractionDone)
+{
+  std::error_code error;
+  if (std::filesystem::is_directory(fileName, error) && isTractFile(fileName))
+  {
+    return std::vector<char>();
+  }
+  auto bytes = readFileBytes(fileName, TimesOfTracts, fractionDone);
+  constexpr unsigned char Gzip[] = { 0x1f, 0x8b };
+  const bool isPacked = bytes && bytes->size() > 2 &&
+    static_cast<unsigned char>((*bytes)[0]) == Gzip[0] &&
+    static_cast<unsigned char>((*bytes)[1]) == Gzip[1];
+  return isPacked ? std::optional(unpackedGzip(*bytes, TimesOfTracts)) : std::move(bytes);
+}
+
+// A box of voxels of 1 mm around points.
+TractBox boxAround(const std::vector<glm::vec3>& points)
+{
+  constexpr float LongestSide = 32767.0f; // of TrackVis
+  glm::vec3 low(0.0f);
+  glm::vec3 high(0.0f);
+  if (!points.empty())
+  {
+    low = high = points.front();
+  }
+  for (const glm::vec3& point : points)
+  {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  TractBox box;
+  const glm::vec3 first = glm::floor(low);
+  box.dimensions = glm::ivec3(glm::min(glm::ceil(high) - first + 1.0f, glm::vec3(LongestSide)));
+  box.worldFromVoxel[3] = glm::dvec4(first, 1.0);
+  return box;
+}
+
+TractBox boxOf(const std::string& volumeName)
+{
+  const VolumeGrid grid =
+    withBeginning("Volume cannot be read: ", [&] { return readVolumeGrid(volumeName); });
+  return { grid.dimensions, grid.worldFromVoxel };
+}
+}
+
+void readTractFile(const TractSource& source, const FractionDone& fractionDone, Tracts& tracts,
+  std::vector<std::string>& warnings)
 {
   tracts = Tracts();
-  const std::string name = "Tract file " + fileName;
+  const std::string name = "Tract file " + source.fileName;
   withBeginning(name + " ", [&] {
-    auto bytes = readFileBytes(
-      fileName, TimesOfTracts, [&](double fraction) { return fractionDone(0.4 * fraction); });
+    auto bytes =
+      tractBytes(source.fileName, [&](double fraction) { return fractionDone(0.4 * fraction); });
     if (bytes)
     {
       const auto rest = [&](double fraction) { return fractionDone(0.4 + 0.6 * fraction); };
-      formatOf(fileName, tractFormats())->read(*bytes, volumeName, rest, tracts);
+      formatOf(source.fileName, tractFormats())->read(*bytes, source, rest, tracts);
     }
   });
   warnings = sentences(name, tracts.notes);
+}
+
+void writeTractFile(const std::string& fileName, const std::string& volumeName,
+  const Tracts& tracts, std::vector<std::string>& warnings)
+{
+  std::string endings;
+  for (const TractFormat* format : tractFormats())
+  {
+    endings += (endings.empty() ? "" : ", ") + std::string(format->ending);
+    if (endsWith(fileName, format->ending))
+    {
+      for (std::size_t i = 0; i < tracts.points.size(); ++i)
+      {
+        withBeginning("Tract file " + fileName + " cannot be written: it ",
+          [&] { requirePoint(glm::dvec3(tracts.points[i]), "point " + std::to_string(i)); });
+      }
+      TractNotes notes = tracts.notes;
+      format->write(
+        fileName, tracts, volumeName.empty() ? boxAround(tracts.points) : boxOf(volumeName), notes);
+      warnings = sentences("Tract file " + fileName, notes);
+      return;
+    }
+  }
+  throw Problem("The extension of the tract file " + fileName + " must be one of " + endings);
 }
 }

@@ -63,8 +63,14 @@ constexpr double FarthestPoint = 1e6;
 /** How numbers lie in memory. */
 enum class NumberType
 {
+  Int8,
   UInt8,
+  Int16,
+  UInt16,
   Int32,
+  UInt32,
+  Int64,
+  UInt64,
   Float32,
   Float64,
 };
@@ -137,16 +143,37 @@ struct SurfaceFormat
   const char* values; ///< such a file in a sentence, with its article
 };
 
+/** Where streamlines are read from. */
+struct TractSource
+{
+  std::string fileName;   ///< a file, or a folder where a format has those
+  std::string volumeName; ///< for files of TrackVis without vox_to_ras; empty: none
+};
+
+/** The voxels that a file of streamlines names, in RAS. */
+struct TractBox
+{
+  glm::ivec3 dimensions{ 1 };
+  glm::dmat4 worldFromVoxel{ 1.0 }; ///< mm
+};
+
+/** Ends of sentences, after the name of the file, on what was left out. */
+using TractNotes = std::vector<std::string>;
+
 /** A format of streamlines. */
 struct TractFormat
 {
-  bool (*isOne)(const std::string& fileName); ///< whether a file begins like one
+  bool (*isOne)(const std::string& fileName); ///< whether a file, packed or not, begins like one
   /**
-   * Reads the bytes of a file, whose order it may reverse, or throws the end of a sentence. There
-   * are no points if it was told to stop. `volumeName`: as for readTractFile.
+   * Reads the bytes of a file, whose order it may reverse, or throws the end of a sentence. Of a
+   * folder there are no bytes. There are no points if it was told to stop.
    */
-  void (*read)(std::vector<char>& bytes, const std::string& volumeName,
+  void (*read)(std::vector<char>& bytes, const TractSource& source,
     const FractionDone& fractionDone, Tracts& tracts);
+  const char* ending; ///< of names of files to write, with a full stop
+  /** Writes a file. Throws a sentence, without a full stop. */
+  void (*write)(
+    const std::string& fileName, const Tracts& tracts, const TractBox& box, TractNotes& notes);
 };
 
 ///@{
@@ -179,12 +206,21 @@ void readSurfaceFiles(const SurfaceFiles& files, const FractionDone& fractionDon
   std::vector<std::string>& warnings);
 
 /**
- * Reads streamlines into RAS mm, as readSurfaceFiles does.
- *
- * @param volumeName   for files of TrackVis without vox_to_ras; empty: none
+ * Reads streamlines into RAS mm, as readSurfaceFiles does. A file may be packed with gzip.
  */
-void readTractFile(const std::string& fileName, const std::string& volumeName,
-  const FractionDone& fractionDone, Tracts& tracts, std::vector<std::string>& warnings);
+void readTractFile(const TractSource& source, const FractionDone& fractionDone, Tracts& tracts,
+  std::vector<std::string>& warnings);
+
+/**
+ * Writes streamlines in RAS mm in the format that the ending of the name says, or throws one
+ * sentence, without a full stop.
+ *
+ * @param volumeName   whose voxels the file names: .mgz, .mgh or NIfTI. Empty: a box of 1 mm around
+ *                     the points
+ * @param warnings     gets sentences, without full stops, on what the file cannot hold
+ */
+void writeTractFile(const std::string& fileName, const std::string& volumeName,
+  const Tracts& tracts, std::vector<std::string>& warnings);
 }
 
 #endif

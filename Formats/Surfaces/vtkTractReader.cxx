@@ -47,7 +47,7 @@ int vtkTractReader::RequestData(
   };
   Tracts tracts;
   std::vector<std::string> warnings;
-  readTractFile(this->FileName, this->Volume, progress, tracts, warnings);
+  readTractFile({ this->FileName, this->Volume }, progress, tracts, warnings);
   for (const std::string& warning : warnings)
   {
     warn(this, warning);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTractReader
- * @brief   reads streamlines of TrackVis and MRtrix into RAS millimetres
+ * @brief   reads streamlines of TrackVis, MRtrix and TRX into RAS millimetres
  *
- * Files: TrackVis (.trk) and MRtrix (.tck). TrackVis keeps points in mm from the corner of a
+ * Files: TrackVis (.trk), MRtrix (.tck), both also packed (.gz), and TRX (.trx, or a folder).
+ * TrackVis keeps points in mm from the corner of a
  * volume; vox_to_ras of the header takes them to RAS. MRtrix keeps them in RAS.
  *
  * Output: one line for each streamline (single precision points, mm, RAS). Scalars of TrackVis are
- * point arrays and its properties are cell arrays (float32), under their names. The field array
+ * point arrays and its properties are cell arrays (float32), under their names; those of TRX keep
+ * their types, and a group NAME is the cell array groups/NAME (1: in it). The field array
  * WorldAxes says RAS if the file or Volume says where the streamlines lie. The reader reports
  * progress and can be aborted. On several processes the first one has all lines. After an error the
  * output is empty.
@@ -30,7 +32,7 @@ public:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   ///@{
-  /** The file: .trk or .tck. Default: none, which is an error. */
+  /** The file: .trk, .tck, .trk.gz, .tck.gz or .trx. Default: none, which is an error. */
   vtkSetMacro(FileName, std::string);
   vtkGetMacro(FileName, std::string);
   ///@}

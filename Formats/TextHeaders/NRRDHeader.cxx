@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 namespace brainshift
 {
@@ -37,7 +38,7 @@ const std::map<std::string, Encoding> Encodings{ { "raw", Encoding::Raw },
   { "gzip", Encoding::Packed }, { "gz", Encoding::Packed }, { "txt", Encoding::Text },
   { "text", Encoding::Text }, { "ascii", Encoding::Text } };
 
-// The space, and whether it says where its axes point.
+// The space, without "-time", and whether it says where its axes point.
 const std::map<std::string, std::pair<HeaderSpace, bool>> Spaces{ { "right-anterior-superior",
                                                                     { HeaderSpace::RAS, true } },
   { "ras", { HeaderSpace::RAS, true } }, { "left-anterior-superior", { HeaderSpace::LAS, true } },
@@ -149,9 +150,13 @@ void readType(TextHeader& header)
   header.numberType = type->second;
 }
 
-// The three numbers of a vector such as "(1,0,0)" that begins at `begin`, and its end. Nothing if
-// anything else stands there.
-std::optional<glm::dvec3> vectorAt(const std::string& text, std::size_t begin, std::size_t& end)
+// A vector in a space; w is time, 0 in a space without it.
+using SpaceVector = glm::dvec4;
+
+// The numbers of a vector such as "(1,0,0)" that begins at `begin`, as many as a space has, and its
+// end. Nothing if anything else stands there.
+std::optional<SpaceVector> vectorAt(
+  const std::string& text, std::size_t dimensions, std::size_t begin, std::size_t& end)
 {
   end = text.find(')', begin);
   if (text[begin] != '(' || end == std::string::npos)
@@ -160,21 +165,22 @@ std::optional<glm::dvec3> vectorAt(const std::string& text, std::size_t begin, s
   }
   std::string inside = text.substr(begin + 1, end - begin - 1);
   ++end;
-  if (std::count(inside.begin(), inside.end(), ',') != 2)
+  if (std::count(inside.begin(), inside.end(), ',') + std::size_t(1) != dimensions)
   {
     return {};
   }
   std::replace(inside.begin(), inside.end(), ',', ' ');
   const std::vector<double> numbers = numbersIn(inside);
-  if (numbers.size() != 3)
+  if (numbers.size() != dimensions)
   {
     return {};
   }
-  return glm::dvec3(numbers[0], numbers[1], numbers[2]);
+  return SpaceVector(numbers[0], numbers[1], numbers[2], dimensions > 3 ? numbers[3] : 0.0);
 }
 
 // The vectors of a text; one without a value for each "none". False if anything else is there.
-bool vectorsIn(const std::string& text, std::vector<std::optional<glm::dvec3>>& vectors)
+bool vectorsIn(
+  const std::string& text, std::size_t dimensions, std::vector<std::optional<SpaceVector>>& vectors)
 {
   const std::string none = "none";
   std::size_t place = 0;
@@ -187,7 +193,7 @@ bool vectorsIn(const std::string& text, std::vector<std::optional<glm::dvec3>>& 
       continue;
     }
     std::size_t end = 0;
-    vectors.push_back(vectorAt(text, place, end));
+    vectors.push_back(vectorAt(text, dimensions, place, end));
     if (!vectors.back())
     {
       return false;
@@ -353,52 +359,96 @@ void requireNoOther(
   }
 }
 
+// An example of a vector, for errors.
+std::string exampleOf(std::size_t dimensions)
+{
+  return std::to_string(dimensions) + " numbers as in " +
+    (dimensions > 3 ? "(1,0,0,0)" : "(1,0,0)");
+}
+
+// Units of a space; empty ones if the file does not say them.
+std::vector<std::string> unitsOfSpace(const TextHeader& header, std::size_t dimensions)
+{
+  const std::string text = header.text.valueOf({ "space units" });
+  std::vector<std::string> units = quotedIn(text);
+  if (units.size() != dimensions && !text.empty())
+  {
+    throw Problem("has the space units " + text + "; it must have " + std::to_string(dimensions) +
+      ", in quotation marks");
+  }
+  units.resize(dimensions);
+  return units;
+}
+
+// An axis along the time of a space.
+void readTime(const AxisFields& fields, std::size_t i, double step, TextHeader& header)
+{
+  HeaderAxis& axis = header.axes[i];
+  const std::string name = "axis " + std::to_string(i + 1);
+  if (!std::isnan(fields.spacings[i]) || !std::isnan(fields.least[i]) ||
+    !std::isnan(fields.most[i]))
+  {
+    throw Problem("has spacings, axis mins or axis maxs for " + name +
+      ", whose times the space directions and the space origin say; they must be nan");
+  }
+  if (i + 1 != header.axes.size())
+  {
+    throw Problem("has its times along " + name + "; they must be along the last axis");
+  }
+  axis.kind = "time";
+  axis.spacing = step;
+}
+
 // Axes that lie in a space: their steps and the origin.
-void readDirections(const AxisFields& fields, TextHeader& header)
+void readDirections(const AxisFields& fields, std::size_t dimensions, TextHeader& header)
 {
   const std::string text = header.text.valueOf({ "space directions" });
-  std::vector<std::optional<glm::dvec3>> steps;
-  const bool isGood = vectorsIn(text, steps);
+  std::vector<std::optional<SpaceVector>> steps;
+  const bool isGood = vectorsIn(text, dimensions, steps);
   if (isGood && steps.size() + 1 == header.axes.size() && header.axes.size() == 4)
   {
-    steps.insert(steps.begin(), std::optional<glm::dvec3>()); // some programs leave out "none"
+    steps.insert(steps.begin(), std::optional<SpaceVector>()); // some programs leave out "none"
   }
   if (!isGood || steps.size() != header.axes.size())
   {
     throw Problem("has the space directions " + text + "; it must have " +
-      std::to_string(header.axes.size()) + ", each of them none or 3 numbers as in (1,0,0)");
+      std::to_string(header.axes.size()) + ", each of them none or " + exampleOf(dimensions));
   }
   const std::string originText = header.text.valueOf({ "space origin" });
   std::size_t end = 0;
-  const std::optional<glm::dvec3> origin =
-    originText.empty() ? glm::dvec3(0.0) : vectorAt(originText, 0, end);
+  const std::optional<SpaceVector> origin =
+    originText.empty() ? SpaceVector(0.0) : vectorAt(originText, dimensions, 0, end);
   if (!origin)
   {
-    throw Problem("has the space origin " + originText + "; it must be 3 numbers as in (1,0,0)");
+    throw Problem("has the space origin " + originText + "; it must be " + exampleOf(dimensions));
   }
   header.hasOrigin = !originText.empty();
-  const std::string unitText = header.text.valueOf({ "space units" });
-  const std::vector<std::string> units = quotedIn(unitText);
-  if (units.size() != 3 && !unitText.empty())
-  {
-    throw Problem("has the space units " + unitText + "; it must have 3, in quotation marks");
-  }
-  glm::dvec3 mm(1.0);
-  for (std::size_t i = 0; i < units.size(); ++i)
-  {
-    mm[static_cast<int>(i)] = mmPer(units[i], header);
-  }
-  header.origin = mm * *origin;
+  const std::vector<std::string> units = unitsOfSpace(header, dimensions);
+  const glm::dvec3 mm(mmPer(units[0], header), mmPer(units[1], header), mmPer(units[2], header));
+  header.origin = mm * glm::dvec3(*origin);
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
-    if (const std::optional<glm::dvec3>& step = steps[i])
+    const std::optional<SpaceVector>& step = steps[i];
+    const bool isInSpace = step && glm::dvec3(*step) != glm::dvec3(0.0);
+    if (!step)
     {
-      header.axes[i].step = mm * *step;
-      requireNoOther(header, fields, i, units.empty() ? std::string() : units[0]);
+      readVolumes(fields, i, header);
+    }
+    else if (isInSpace && step->w != 0.0)
+    {
+      throw Problem("has the space directions " + text + "; axis " + std::to_string(i + 1) +
+        " mixes space with time");
+    }
+    else if (dimensions > 3 && !isInSpace)
+    {
+      readTime(fields, i, step->w, header);
+      header.axes[i].start = origin->w;
+      header.axes[i].unit = units[3];
     }
     else
     {
-      readVolumes(fields, i, header);
+      header.axes[i].step = mm * glm::dvec3(*step);
+      requireNoOther(header, fields, i, units[0]);
     }
   }
 }
@@ -469,27 +519,56 @@ void readSpacings(const AxisFields& fields, TextHeader& header)
   requireLabels(header);
 }
 
+// Axes of a space, 3, or 4 with time. ITK writes time as a fourth axis of the space.
+std::size_t dimensionsOf(const TextHeader& header, bool hasTime)
+{
+  const std::string text = header.text.valueOf({ "space dimension" });
+  const std::size_t named = hasTime ? 4 : 3;
+  if (text.empty())
+  {
+    return named;
+  }
+  const std::vector<double> numbers = numbersIn(text);
+  const bool isNamed = header.text.has("space");
+  const bool isGood = numbers.size() == 1 &&
+    (isNamed ? numbers[0] == static_cast<double>(named) : numbers[0] == 3.0 || numbers[0] == 4.0);
+  if (!isGood)
+  {
+    throw Problem("has the space dimension " + text + "; it must be " +
+      (isNamed ? std::to_string(named) : "3, or 4 with time"));
+  }
+  return static_cast<std::size_t>(numbers[0]);
+}
+
 void readPlace(TextHeader& header)
 {
+  constexpr std::string_view Time = "-time";
   const std::string spaceText = header.text.valueOf({ "space" });
-  const std::string dimension = header.text.valueOf({ "space dimension" });
-  if (!dimension.empty() && numbersIn(dimension) != std::vector<double>{ 3.0 })
-  {
-    throw Problem("has the space dimension " + dimension + "; it must be 3");
-  }
-  const auto space = Spaces.find(lowerCase(spaceText));
+  const std::string word = lowerCase(spaceText);
+  const bool isShort = word == "rast" || word == "last" || word == "lpst";
+  const bool hasTime = isShort || endsWith(word, std::string(Time));
+  const std::string plain =
+    hasTime ? word.substr(0, word.size() - (isShort ? 1 : Time.size())) : word;
+  const auto space = Spaces.find(plain);
   if (space == Spaces.end() && !spaceText.empty())
   {
     throw Problem("is in the space " + spaceText +
       "; BrainShift reads right-anterior-superior, left-anterior-superior, " +
-      "left-posterior-superior, scanner-xyz, 3D-right-handed and 3D-left-handed");
+      "left-posterior-superior, scanner-xyz, 3D-right-handed and 3D-left-handed, also with -time");
   }
+  const std::size_t dimensions = dimensionsOf(header, hasTime);
   header.space = spaceText.empty() ? HeaderSpace::RAS : space->second.first;
+  if (spaceText.empty() && dimensions > 3)
+  {
+    header.space = HeaderSpace::LPS;
+    header.warnings.emplace_back("names no space for its 4 dimensions, as ITK and SimpleITK write "
+                                 "them; it counts as left-posterior-superior-time, as there");
+  }
   const AxisFields fields = fieldsOfAxes(header);
   if (header.text.has("space directions"))
   {
     header.knowsSides = !spaceText.empty() && space->second.second;
-    readDirections(fields, header);
+    readDirections(fields, dimensions, header);
     return;
   }
   if (header.text.has("space origin") || header.text.has("space units"))

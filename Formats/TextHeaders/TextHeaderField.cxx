@@ -30,20 +30,42 @@ constexpr const char* DirectionKey = "displacement field type"; // of NRRD
 constexpr double LargestSkew = 1e-3; // cosine between two axes
 constexpr int LongestSide = 65535;
 
-// Sides, and the steps from one point to the next.
+// Whether the components of a vector are along the last axis, not along the first.
+bool areLast(const TextHeader& header)
+{
+  return header.axes.size() == 4 && header.axes[0].step.has_value();
+}
+
+// LPS from the space of a header.
+glm::dvec3 lpsSigns(HeaderSpace space)
+{
+  switch (space)
+  {
+    case HeaderSpace::RAS:
+      return glm::dvec3(-1.0, -1.0, 1.0);
+    case HeaderSpace::LAS:
+      return glm::dvec3(1.0, -1.0, 1.0);
+    default:
+      return glm::dvec3(1.0);
+  }
+}
+
+// Sides, and the steps from one point to the next, in LPS.
 void place(const TextHeader& header, Grid& grid)
 {
+  const glm::dvec3 signs = lpsSigns(header.space);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const HeaderAxis& along = header.axes[static_cast<std::size_t>(axis) + 1];
+    const std::size_t first = areLast(header) ? 0 : 1;
+    const HeaderAxis& along = header.axes[static_cast<std::size_t>(axis) + first];
     if (along.count > LongestSide)
     {
       throw Problem("has a side of " + std::to_string(along.count) +
         " points; it must have at most " + std::to_string(LongestSide));
     }
     grid.dimensions[axis] = static_cast<int>(along.count);
-    grid.origin[axis] = header.origin[axis];
-    const glm::dvec3 step = along.step.value_or(glm::dvec3(0.0));
+    grid.origin[axis] = signs[axis] * header.origin[axis];
+    const glm::dvec3 step = signs * along.step.value_or(glm::dvec3(0.0));
     grid.spacing[axis] = glm::length(step);
     grid.direction[axis] = step / grid.spacing[axis];
     if (!std::isfinite(grid.origin[axis]) || !(grid.spacing[axis] > 0.0) ||
@@ -100,15 +122,22 @@ void requirePlainVectors(const HeaderText& text)
 // Why the numbers of a header are no field; empty if they are one.
 void requireField(const TextHeader& header)
 {
-  const bool areVectors = header.axes.size() == 4 && !header.axes[0].step;
-  if (!areVectors || header.axes[0].count != 3)
+  const bool isLast = areLast(header);
+  const bool areVectors = header.axes.size() == 4 && (!header.axes[0].step || isLast);
+  const HeaderAxis& components = isLast ? header.axes.back() : header.axes.front();
+  if (!areVectors || components.count != 3)
   {
-    throw Problem("holds " + std::to_string(areVectors ? header.axes[0].count : 1) +
+    throw Problem("holds " + std::to_string(areVectors ? components.count : 1) +
       " components per point; a field must have 3");
   }
-  const std::string& kind = header.axes[0].kind;
-  const bool isVector =
-    kind.empty() || kind == "???" || kind == "none" || kind == "vector" || kind == "3-vector";
+  const std::string& kind = components.kind;
+  const bool isNamed = kind == "vector" || kind == "3-vector";
+  const bool isVector = isNamed || kind.empty() || kind == "???" || kind == "none";
+  if (isLast && !isNamed && header.text.keyed(DirectionKey).empty())
+  {
+    throw Problem("has 3 numbers along its last axis, which may be 3 times: kinds must say that "
+                  "they are a vector");
+  }
   // 3D Slicer names the direction of each field.
   if (!isVector && header.text.keyed(DirectionKey).empty())
   {
@@ -135,9 +164,16 @@ void requireField(const TextHeader& header)
   {
     throw Problem("rescales its numbers; a field must hold mm");
   }
-  if (header.space != HeaderSpace::LPS)
+  if (header.text.isNRRD && !header.knowsSides && header.space != HeaderSpace::LPS)
   {
-    throw Problem("is not in the space left-posterior-superior; a field must be");
+    throw Problem("does not say where the sides of the patient are; a field must be in the space "
+                  "left-posterior-superior, or another that names them");
+  }
+  if (header.space != HeaderSpace::LPS && !header.text.has("measurement frame"))
+  {
+    throw Problem("is in the space " + header.text.valueOf({ "space" }) +
+      ", and ITK would take its vectors for LPS; if they are along the axes of the space, add the "
+      "line measurement frame: (1,0,0) (0,1,0) (0,0,1)");
   }
   requirePlainVectors(header.text);
 }
@@ -175,14 +211,24 @@ std::vector<char> readData(const TextHeader& header, const Grid& grid)
   return data;
 }
 
+// To LPS.
 template <typename Number>
-void copyNumbers(const std::vector<char>& data, std::vector<glm::vec3>& vectors)
+void copyNumbers(
+  const TextHeader& header, const std::vector<char>& data, std::vector<glm::vec3>& vectors)
 {
-  for (std::size_t i = 0; i < 3 * vectors.size(); ++i)
+  const glm::dvec3 signs = lpsSigns(header.space);
+  const std::size_t points = vectors.size();
+  const std::size_t ofPoint = areLast(header) ? 1 : 3; // numbers from one point to the next
+  const std::size_t ofComponent = areLast(header) ? points : 1;
+  for (std::size_t i = 0; i < points; ++i)
   {
-    Number number;
-    std::memcpy(&number, data.data() + i * sizeof(Number), sizeof(Number));
-    vectors[i / 3][static_cast<int>(i % 3)] = static_cast<float>(number);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::size_t at = i * ofPoint + static_cast<std::size_t>(axis) * ofComponent;
+      Number number;
+      std::memcpy(&number, data.data() + at * sizeof(Number), sizeof(Number));
+      vectors[i][axis] = static_cast<float>(signs[axis] * number);
+    }
   }
 }
 
@@ -227,11 +273,11 @@ void readField(const std::string& fileName, DirectedField& field)
   field.displacements.resize(field.grid.count());
   if (header.numberType == VTK_DOUBLE)
   {
-    copyNumbers<double>(data, field.displacements);
+    copyNumbers<double>(header, data, field.displacements);
   }
   else
   {
-    copyNumbers<float>(data, field.displacements);
+    copyNumbers<float>(header, data, field.displacements);
   }
   reverseXY(field);
 }

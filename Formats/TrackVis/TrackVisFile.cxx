@@ -8,13 +8,15 @@
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
 #include "Common/Parallel.h"
-#include "Formats/Files/PlainFile.h"
+#include "Formats/Files/PackedBytes.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Files/WholeFile.h"
 #include "Formats/Surfaces/SurfaceFile.h"
 #include "Formats/Volumes/RasGrid.h"
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace brainshift
@@ -376,16 +378,16 @@ std::int64_t takeStreamline(const std::vector<char>& bytes, const Records& recor
 
 bool isTrackVisFile(const std::string& fileName)
 {
-  return readBeginning(fileName, Magic.size()) == Magic;
+  return readUnpackedBeginning(fileName, Magic.size()) == Magic;
 }
 
-void readTrackVis(std::vector<char>& bytes, const std::string& volumeName,
+void readTrackVis(std::vector<char>& bytes, const TractSource& source,
   const FractionDone& fractionDone, Tracts& tracts)
 {
   TrackHeader header;
   Records records;
   readHeader(bytes, header);
-  const glm::dmat4 world = findPlace(header, volumeName, tracts);
+  const glm::dmat4 world = findPlace(header, source.volumeName, tracts);
   findRecords(bytes, header, records, tracts);
   const auto points = static_cast<std::size_t>(tracts.firsts.back());
   tracts.ofPoints = emptyNumbers(namesAt(header, 38, header.scalars(), "scalars"), points);
@@ -422,7 +424,188 @@ void readTrackVis(std::vector<char>& bytes, const std::string& volumeName,
       glm::dvec3(tracts.points[static_cast<std::size_t>(point)]), "point " + std::to_string(point));
   }
 }
+
+// A number as float32. `isExact` becomes false if it is another one then.
+template <typename T>
+float floatOf(const char* bytes, bool& isExact)
+{
+  T number{};
+  std::memcpy(&number, bytes, sizeof(T));
+  const auto found = static_cast<float>(number);
+  isExact = isExact &&
+    (static_cast<long double>(found) == static_cast<long double>(number) || !(number == number));
+  return found;
 }
 
-extern const TractFormat TractsOfTrackVis{ isTrackVisFile, readTrackVis };
+float floatOf(const NamedNumbers& numbers, std::size_t i, bool& isExact)
+{
+  const char* bytes = numbers.bytes.data() + i * bytesOf(numbers.type);
+  switch (numbers.type)
+  {
+    case NumberType::Int8:
+      return floatOf<std::int8_t>(bytes, isExact);
+    case NumberType::UInt8:
+      return floatOf<std::uint8_t>(bytes, isExact);
+    case NumberType::Int16:
+      return floatOf<std::int16_t>(bytes, isExact);
+    case NumberType::UInt16:
+      return floatOf<std::uint16_t>(bytes, isExact);
+    case NumberType::Int32:
+      return floatOf<std::int32_t>(bytes, isExact);
+    case NumberType::UInt32:
+      return floatOf<std::uint32_t>(bytes, isExact);
+    case NumberType::Int64:
+      return floatOf<std::int64_t>(bytes, isExact);
+    case NumberType::UInt64:
+      return floatOf<std::uint64_t>(bytes, isExact);
+    case NumberType::Float64:
+      return floatOf<double>(bytes, isExact);
+    default:
+      return floatOf<float>(bytes, isExact);
+  }
+}
+
+// The bytes of a header that is written.
+struct NewHeader
+{
+  std::vector<char> bytes = std::vector<char>(HeaderBytes, '\0');
+
+  template <typename T>
+  void put(std::size_t offset, T number)
+  {
+    std::memcpy(this->bytes.data() + offset, &number, sizeof(T));
+  }
+  void putText(std::size_t offset, const std::string& text)
+  {
+    std::copy(text.begin(), text.end(), this->bytes.begin() + static_cast<std::ptrdiff_t>(offset));
+  }
+};
+
+// Names of up to 10 arrays, as nibabel writes them: how many numbers each has follows a byte 0. The
+// arrays beyond, and shortened names, give notes. Returns the numbers of one point or streamline.
+std::size_t putNames(
+  NewHeader& header, std::size_t offset, std::vector<NamedNumbers>& list, TractNotes& notes)
+{
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < list.size(); ++i)
+  {
+    if (i >= MostNames)
+    {
+      notes.push_back(
+        "has room for 10 arrays of a kind, and leaves out " + list[i].name + "; .trx keeps it");
+      continue;
+    }
+    const std::string count =
+      list[i].components > 1 ? std::string(1, '\0') + std::to_string(list[i].components) : "";
+    const std::string name = plainName(list[i].name).substr(0, NameBytes - count.size());
+    if (name != list[i].name)
+    {
+      notes.push_back("has room for " + std::to_string(NameBytes) +
+        " plain letters of a name: the array " + list[i].name + " is called " + name);
+    }
+    header.putText(offset + NameBytes * i, name + count);
+    total += list[i].components;
+  }
+  list.resize(std::min<std::size_t>(list.size(), MostNames));
+  return total;
+}
+
+void putNumbers(
+  const std::vector<NamedNumbers>& list, std::size_t tuple, bool& isExact, std::vector<float>& to)
+{
+  for (const NamedNumbers& numbers : list)
+  {
+    for (std::size_t i = 0; i < numbers.components; ++i)
+    {
+      to.push_back(floatOf(numbers, tuple * numbers.components + i, isExact));
+    }
+  }
+}
+
+// The letters of the axes that run nearest to each; voxel_order must fit vox_to_ras.
+std::string lettersOf(const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions)
+{
+  const RasGrid grid = nearestRasGrid(worldFromVoxel, dimensions);
+  std::string letters = "RAS";
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto ras = static_cast<std::size_t>(axis);
+    letters[static_cast<std::size_t>(grid.voxelAxis[ras])] =
+      grid.reversed[ras] ? "LPI"[axis] : "RAS"[axis];
+  }
+  return letters;
+}
+
+NewHeader headerOf(const TractBox& box, const Tracts& tracts)
+{
+  NewHeader header;
+  header.putText(0, std::string(Magic));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto place = static_cast<std::size_t>(axis);
+    if (box.dimensions[axis] > std::numeric_limits<std::int16_t>::max())
+    {
+      throw Problem("Volume has " + std::to_string(box.dimensions[axis]) +
+        " voxels along an axis; a file of TrackVis can name 32767");
+    }
+    header.put(6 + 2 * place, static_cast<std::int16_t>(box.dimensions[axis]));
+    header.put(
+      12 + 4 * place, static_cast<float>(glm::length(glm::dvec3(box.worldFromVoxel[axis]))));
+  }
+  for (int i = 0; i < 16; ++i)
+  {
+    header.put(
+      440 + 4 * static_cast<std::size_t>(i), static_cast<float>(box.worldFromVoxel[i % 4][i / 4]));
+  }
+  header.putText(948, lettersOf(box.worldFromVoxel, box.dimensions));
+  header.put(988, static_cast<std::int32_t>(tracts.firsts.size() - 1));
+  header.put(992, std::int32_t(2));
+  header.put(996, static_cast<std::int32_t>(HeaderBytes));
+  return header;
+}
+
+void writeTrackVis(
+  const std::string& fileName, const Tracts& tracts, const TractBox& box, TractNotes& notes)
+{
+  withBeginning("Volume places nothing: ", [&] { requireAffine(box.worldFromVoxel); });
+  NewHeader header = headerOf(box, tracts);
+  std::vector<NamedNumbers> ofPoints = tracts.ofPoints;
+  std::vector<NamedNumbers> ofStreamlines = tracts.ofStreamlines;
+  header.put(36, static_cast<std::int16_t>(putNames(header, 38, ofPoints, notes)));
+  header.put(238, static_cast<std::int16_t>(putNames(header, 240, ofStreamlines, notes)));
+  TrackHeader stored; // the places that a reader will find
+  stored.bytes = header.bytes.data();
+  stored.isBigEndian = thisMachineIsBigEndian();
+  const glm::dmat4 storedFromWorld = glm::inverse(stored.voxToRas() * voxelFromStored(stored));
+  bool isExact = true;
+  writeWholeStream(fileName, [&](std::ostream& file) {
+    file.write(header.bytes.data(), static_cast<std::streamsize>(header.bytes.size()));
+    std::vector<float> numbers;
+    for (std::size_t line = 0; line + 1 < tracts.firsts.size(); ++line)
+    {
+      const auto count = static_cast<std::int32_t>(tracts.firsts[line + 1] - tracts.firsts[line]);
+      numbers.clear();
+      for (std::int64_t i = tracts.firsts[line]; i < tracts.firsts[line + 1]; ++i)
+      {
+        const auto point = static_cast<std::size_t>(i);
+        const glm::dvec3 place(storedFromWorld * glm::dvec4(tracts.points[point], 1.0));
+        numbers.insert(numbers.end(),
+          { static_cast<float>(place.x), static_cast<float>(place.y),
+            static_cast<float>(place.z) });
+        putNumbers(ofPoints, point, isExact, numbers);
+      }
+      putNumbers(ofStreamlines, line, isExact, numbers);
+      file.write(reinterpret_cast<const char*>(&count), sizeof(count));
+      file.write(reinterpret_cast<const char*>(numbers.data()),
+        static_cast<std::streamsize>(4 * numbers.size()));
+    }
+  });
+  if (!isExact)
+  {
+    notes.emplace_back("holds all numbers as float32, which rounds some; .trx keeps their types");
+  }
+}
+}
+
+extern const TractFormat TractsOfTrackVis{ isTrackVisFile, readTrackVis, ".trk", writeTrackVis };
 }

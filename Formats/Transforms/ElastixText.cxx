@@ -251,10 +251,12 @@ void addField(const Entries& entries, const std::string& fileName, const AddFile
   }
   addFile(namedFile(wordOf(entries, "DeformationFieldFileName"), fileName), transform);
   auto* field = transform.links.empty() ? nullptr : std::get_if<FieldLink>(&transform.links.back());
-  if (field)
+  if (!field)
   {
-    field->isNearest = order == "0";
+    throw Problem("names a deformation field that says that it is a forward one; elastix' is "
+                  "backward");
   }
+  field->between = order == "0" ? Between::Nearest : Between::Linear;
 }
 
 // The fixed parameters that ITK's transform of a type has.

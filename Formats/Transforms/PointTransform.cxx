@@ -30,7 +30,8 @@ glm::dvec3 mappedBy(const AffineLink& link, const glm::dvec3& from)
   return link.linear * from + link.offset;
 }
 
-glm::dvec3 mappedBy(const SplineLink& link, const glm::dvec3& from)
+// The sum of cubic B-splines; 0 outside.
+glm::dvec3 bendOf(const SplineLink& link, const glm::dvec3& from)
 {
   const glm::ivec3& sides = link.grid.dimensions;
   const glm::dvec3 at = link.grid.at(from);
@@ -40,7 +41,7 @@ glm::dvec3 mappedBy(const SplineLink& link, const glm::dvec3& from)
   {
     if (!(at[axis] >= 1.0 - EdgeOfSpline && at[axis] <= sides[axis] - 2.0 + EdgeOfSpline))
     {
-      return from;
+      return glm::dvec3(0.0);
     }
     const int cell = std::clamp(static_cast<int>(std::floor(at[axis])), 1, sides[axis] - 3);
     first[axis] = cell - 1;
@@ -60,7 +61,48 @@ glm::dvec3 mappedBy(const SplineLink& link, const glm::dvec3& from)
       }
     }
   }
-  return from + sum;
+  return sum;
+}
+
+glm::dvec3 mappedBy(const SplineLink& link, const glm::dvec3& from)
+{
+  return mappedBy(link.base, from) + bendOf(link, from);
+}
+
+// Catmull-Rom's weights of the points before, at, after and behind a place between two points.
+glm::dvec4 cubicWeights(double t)
+{
+  return 0.5 *
+    glm::dvec4(t * (t * (2.0 - t) - 1.0), t * t * (3.0 * t - 5.0) + 2.0,
+      t * (t * (4.0 - 3.0 * t) + 1.0), t * t * (t - 1.0));
+}
+
+// Displacement at grid coordinates from 1 to the sides less 2.
+glm::dvec3 cubicDisplacement(const FieldLink& link, const glm::dvec3& at)
+{
+  const glm::ivec3& sides = link.grid.dimensions;
+  const glm::ivec3 cell = glm::min(glm::ivec3(at), sides - 3);
+  const glm::dvec3 within = at - glm::dvec3(cell);
+  const glm::dvec4 weights[3] = { cubicWeights(within.x), cubicWeights(within.y),
+    cubicWeights(within.z) };
+  glm::dvec3 sum(0.0);
+  for (int i = 0; i < 64; ++i)
+  {
+    const glm::ivec3 step(i & 3, i >> 2 & 3, i >> 4);
+    const double weight = weights[0][step.x] * weights[1][step.y] * weights[2][step.z];
+    const glm::ivec3 point = cell - 1 + step;
+    if (weight != 0.0) // a neighbour without a number does not count where it has no weight
+    {
+      const std::size_t row = static_cast<std::size_t>(point.z) * sides.y + point.y;
+      sum += weight * glm::dvec3(link.displacements[row * sides.x + point.x]);
+    }
+  }
+  return sum;
+}
+
+bool isWithin(const glm::dvec3& at, const glm::dvec3& low, const glm::dvec3& high)
+{
+  return glm::all(glm::greaterThanEqual(at, low)) && glm::all(glm::lessThanEqual(at, high));
 }
 
 glm::dvec3 mappedBy(const FieldLink& link, const glm::dvec3& from)
@@ -74,7 +116,15 @@ glm::dvec3 mappedBy(const FieldLink& link, const glm::dvec3& from)
       return from;
     }
   }
-  at = glm::clamp(link.isNearest ? glm::floor(at + 0.5) : at, glm::dvec3(0.0), glm::dvec3(last));
+  const bool isCubic = link.between == Between::Cubic;
+  if (isCubic && glm::all(glm::greaterThan(last, glm::ivec3(2))) &&
+    isWithin(at, glm::dvec3(1.0), glm::dvec3(last - 1)))
+  {
+    return from + cubicDisplacement(link, at);
+  }
+  const bool isNearest = link.between == Between::Nearest ||
+    (isCubic && !isWithin(at, glm::dvec3(0.0), glm::dvec3(last)));
+  at = glm::clamp(isNearest ? glm::floor(at + 0.5) : at, glm::dvec3(0.0), glm::dvec3(last));
   const glm::ivec3 low(at);
   const glm::dvec3 within = at - glm::dvec3(low);
   glm::dvec3 sum(0.0);
@@ -96,6 +146,21 @@ glm::dvec3 mappedBy(const FieldLink& link, const glm::dvec3& from)
   return from + sum;
 }
 
+glm::dvec3 mappedBy(const ThinPlateLink& link, const glm::dvec3& from)
+{
+  glm::dvec3 to = mappedBy(link.base, from);
+  for (std::size_t i = 0; i < link.sources.size(); ++i)
+  {
+    to += glm::distance(from, link.sources[i]) * link.weights[i];
+  }
+  return to;
+}
+
+glm::dvec3 mappedBy(const InverseLink& link, const glm::dvec3& from)
+{
+  return mappedBack(*link.of, from);
+}
+
 // Derivatives of a link that bends: column a is d(to) / d(from_a).
 template <typename Link>
 glm::dmat3 slopesOf(const Link& link, const glm::dvec3& from)
@@ -111,9 +176,20 @@ glm::dmat3 slopesOf(const Link& link, const glm::dvec3& from)
   return slopes;
 }
 
+AffineLink inverted(const AffineLink& link)
+{
+  const glm::dmat3 linear = glm::inverse(link.linear);
+  return { linear, -(linear * link.offset) };
+}
+
 glm::dvec3 mappedBackBy(const AffineLink& link, const glm::dvec3& to)
 {
   return glm::inverse(link.linear) * (to - link.offset);
+}
+
+glm::dvec3 mappedBackBy(const InverseLink& link, const glm::dvec3& to)
+{
+  return mapped(*link.of, to);
 }
 
 // Newton's method. A step that makes the miss longer is halved. NaN where the search meets points
@@ -171,6 +247,7 @@ void reverseLink(AffineLink& link)
 void reverseLink(SplineLink& link)
 {
   reverseGrid(link.grid);
+  reverseLink(link.base);
   for (glm::dvec3& coefficient : link.coefficients)
   {
     coefficient *= glm::dvec3(-1.0, -1.0, 1.0);
@@ -184,6 +261,23 @@ void reverseLink(FieldLink& link)
   {
     displacement *= glm::vec3(-1.0f, -1.0f, 1.0f);
   }
+}
+
+void reverseLink(ThinPlateLink& link)
+{
+  reverseLink(link.base);
+  for (std::size_t i = 0; i < link.sources.size(); ++i)
+  {
+    link.sources[i] *= glm::dvec3(-1.0, -1.0, 1.0);
+    link.weights[i] *= glm::dvec3(-1.0, -1.0, 1.0);
+  }
+}
+
+void reverseLink(InverseLink& link)
+{
+  PointTransform other = *link.of;
+  reverseXY(other);
+  link.of = std::make_shared<const PointTransform>(std::move(other));
 }
 
 bool isIdentity(const AffineLink& link)
@@ -261,13 +355,23 @@ std::optional<AffineLink> affineOf(const PointTransform& transform)
   for (const TransformLink& link : transform.links)
   {
     const auto* affine = std::get_if<AffineLink>(&link);
-    if (!affine)
+    const auto* inverse = std::get_if<InverseLink>(&link);
+    const std::optional<AffineLink> other =
+      inverse ? affineOf(*inverse->of) : std::optional<AffineLink>();
+    if (!affine && !other)
     {
       return {};
     }
+    const AffineLink turned = other ? inverted(*other) : AffineLink();
+    affine = affine ? affine : &turned;
     all = { affine->linear * all.linear, affine->linear * all.offset + affine->offset };
   }
   return all;
+}
+
+TransformLink inverseOf(PointTransform transform)
+{
+  return InverseLink{ std::make_shared<const PointTransform>(std::move(transform)) };
 }
 
 std::string kindOf(const PointTransform& transform)
@@ -296,6 +400,13 @@ std::optional<Grid> ownGridOf(const PointTransform& transform)
     if (const auto* field = std::get_if<FieldLink>(&link))
     {
       return samplesOf(field->grid, glm::dvec3(0.0), glm::dvec3(field->grid.dimensions - 1), 1);
+    }
+    if (const auto* inverse = std::get_if<InverseLink>(&link))
+    {
+      if (const std::optional<Grid> grid = ownGridOf(*inverse->of))
+      {
+        return grid;
+      }
     }
   }
   return {};

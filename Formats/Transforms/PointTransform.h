@@ -11,6 +11,7 @@
 #include "Common/Grid.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -46,13 +47,22 @@ struct LinkGrid
 };
 
 /**
- * ITK's BSplineTransform of order 3: uniform cubic B-splines. One cell inside the outermost
- * coefficients it ends; beyond, points stay.
+ * ITK's BSplineTransform of order 3: to = base(from) + uniform cubic B-splines. One cell inside the
+ * outermost coefficients the splines end; beyond, only the base counts.
  */
 struct SplineLink
 {
   LinkGrid grid;
   std::vector<glm::dvec3> coefficients; ///< mm, one for each point, x fastest
+  AffineLink base; ///< the bulk of ITK 3, or FNIRT's affine map; default: the identity
+};
+
+/** How displacements between the points of a field are found. */
+enum class Between
+{
+  Linear,
+  Nearest, ///< elastix with interpolation order 0
+  Cubic,   ///< the MNI's: Catmull-Rom; linear within a cell of the edge; outside it the nearest
 };
 
 /** ITK's DisplacementFieldTransform: beyond half a cell outside its points, points stay. */
@@ -60,16 +70,33 @@ struct FieldLink
 {
   LinkGrid grid;
   std::vector<glm::vec3> displacements; ///< mm, one for each point, x fastest
-  bool isNearest = false;               ///< true: elastix with interpolation order 0
+  Between between = Between::Linear;
 };
 
-using TransformLink = std::variant<AffineLink, SplineLink, FieldLink>;
+/** ITK's and Slicer's thin plates: to = base(from) + sum of weight * distance(from, source). */
+struct ThinPlateLink
+{
+  std::vector<glm::dvec3> sources; ///< mm: the landmarks that points are mapped from
+  std::vector<glm::dvec3> weights; ///< one for each source; no unit
+  AffineLink base;
+};
+
+struct PointTransform;
+
+/** The inverse of a chain, as a file names it by the map in the other direction. */
+struct InverseLink
+{
+  std::shared_ptr<const PointTransform> of; ///< never null
+};
+
+using TransformLink = std::variant<AffineLink, SplineLink, FieldLink, ThinPlateLink, InverseLink>;
 
 /** Maps in the order in which points pass through them. An empty chain is the identity. */
 struct PointTransform
 {
   std::vector<TransformLink> links;
   bool knowsSides = true; ///< false: RAS is a guess, as of an image that a link counts from
+  std::vector<std::string> stories{}; ///< what each file says and leads to, one sentence each
 };
 
 /** Where the chain takes a point (mm). NaN where a field has no number. */
@@ -87,6 +114,16 @@ VTKBRAINSHIFTFORMATS_EXPORT glm::dvec3 mappedBack(
 /** Reverses x and y on both sides: this leads from LPS to RAS and back. */
 VTKBRAINSHIFTFORMATS_EXPORT void reverseXY(PointTransform& transform);
 
+/** A link for the inverse of a chain. */
+VTKBRAINSHIFTFORMATS_EXPORT TransformLink inverseOf(PointTransform transform);
+
+/**
+ * A link through thin plates from landmarks to others, both in mm and one for one. Throws the end
+ * of a sentence if the sources do not span a volume, or are too many.
+ */
+TransformLink throughLandmarks(
+  const std::vector<glm::dvec3>& sources, const std::vector<glm::dvec3>& targets);
+
 /** The chain as one affine map; none if a link bends. */
 VTKBRAINSHIFTFORMATS_EXPORT std::optional<AffineLink> affineOf(const PointTransform& transform);
 
@@ -97,8 +134,9 @@ VTKBRAINSHIFTFORMATS_EXPORT std::optional<AffineLink> affineOf(const PointTransf
 VTKBRAINSHIFTFORMATS_EXPORT std::string kindOf(const PointTransform& transform);
 
 /**
- * The points of the first link that bends, as a grid to sample the chain on: four samples in each
- * cell of a B-spline, fewer if they would be more than 256 along an axis. None without such a link.
+ * The points of the first link that has some, as a grid to sample the chain on: four samples in
+ * each cell of a B-spline, fewer if they would be more than 256 along an axis. None without such a
+ * link.
  */
 VTKBRAINSHIFTFORMATS_EXPORT std::optional<Grid> ownGridOf(const PointTransform& transform);
 

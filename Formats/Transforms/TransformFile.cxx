@@ -5,12 +5,11 @@
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
-#include "Formats/NIFTI/NIFTIHeader.h"
-#include "Formats/NIFTI/NIFTIVolume.h"
+#include "Formats/Transforms/FSLWarp.h"
 #include "Formats/Transforms/TransformRecord.h"
 
-#include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
 namespace brainshift
@@ -75,50 +74,24 @@ glm::dmat4 matrixOf(const std::vector<double>& rows)
   return matrix;
 }
 
-// Voxels from the millimetres of FSL: from the first voxel, by pixdim and not by the sform. x is
-// reversed where the file is right-handed. One without sform and qform counts as left-handed.
-glm::dmat4 voxelFromFSL(
-  const NIFTIPlacement& placement, const glm::dmat4& worldFromVoxel, int columns)
+constexpr const char* OfITK = "a transform of ITK, as Slicer and ANTs write it, too";
+constexpr const char* AsStored = "It takes points of the fixed image to the moving one, as stored.";
+constexpr const char* Turned =
+  "It takes points of the moving image to the fixed one; BrainShift turns it round.";
+
+// Remembers what a file says of its direction.
+void tell(const std::string& what, const char* leads, PointTransform& transform)
 {
-  glm::dmat4 result(1.0);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double size = std::abs(placement.pixelSize[axis]);
-    if (!std::isfinite(size) || size == 0.0)
-    {
-      throw Problem(joined("has the pixdim[", axis + 1, "] ", placement.pixelSize[axis],
-        ", by which FSL scales; name the image that flirt was given"));
-    }
-    result[axis][axis] = 1.0 / size;
-  }
-  const bool isKnown = placement.sformCode > 0 || placement.qformCode > 0;
-  if (isKnown && glm::determinant(glm::dmat3(worldFromVoxel)) > 0.0)
-  {
-    result[0][0] = -result[0][0];
-    result[3][0] = columns - 1;
-  }
-  return result;
+  transform.stories.push_back("holds " + what + ". " + leads);
 }
 
-// RAS from the millimetres of FSL. `knowsSides` becomes false if the image does not know them.
-glm::dmat4 readFSLFrame(const std::string& what, const std::string& image, bool& knowsSides)
+// What a field says of its direction.
+std::string storyOf(const std::optional<Direction>& direction)
 {
-  if (image.empty())
-  {
-    throw Problem("holds a matrix of FSL's flirt, whose points depend on both images: name the " +
-      what + " image too, the NIfTI file that flirt was given");
-  }
-  NIFTIVolume file;
-  VolumeHeader header;
-  glm::dmat4 worldFromFSL;
-  withBeginning("needs the " + what + " image " + image + ", which ", [&] {
-    file.readHeader(image, header);
-    const glm::dmat4 worldFromVoxel = file.inFileOrder(header.worldFromVoxel, header.dimensions);
-    worldFromFSL =
-      worldFromVoxel * voxelFromFSL(file.placement(), worldFromVoxel, header.dimensions.x);
-  });
-  knowsSides = knowsSides && header.knowsSides;
-  return worldFromFSL;
+  return !direction ? "a displacement field that does not name its direction, which counts as a "
+                      "backward one, as those of ITK, ANTs and elastix are"
+                    : std::string("a displacement field that says that it is a ") +
+      (*direction == Direction::Forward ? "forward" : "backward") + " one";
 }
 
 // Reads files one after another into a chain of LPS.
@@ -138,12 +111,26 @@ public:
         "is one of a chain of more than " + std::to_string(LongestChain) + " transforms");
     }
     requirePlainFile(fileName);
-    if (hasFieldEnding(fileName)) // a file that is no field then says why
+    const std::optional<NIFTIWarpKind> warp =
+      niftiWarpOf(fileName, this->Files.program == MatrixProgram::SPM);
+    if (warp && *warp == NIFTIWarpKind::Positions)
+    {
+      tell("positions of SPM at the voxels of the fixed image, as you say", AsStored, transform);
+      addPositions(fileName, transform);
+    }
+    else if (warp)
+    {
+      const NamedImages images{ this->Files.fixedImage, this->Files.movingImage };
+      tell("a warp of FSL, in the millimetres of its images", AsStored, transform);
+      addFSLWarp(fileName, *warp, images, transform);
+    }
+    else if (hasFieldEnding(fileName)) // a file that is no field then says why
     {
       addFieldFile(fileName, transform);
     }
     else if (isHDF5(fileName))
     {
+      tell(OfITK, AsStored, transform);
       addRecords(readHDF5Records(fileName), transform);
     }
     else
@@ -157,24 +144,50 @@ private:
   {
     DirectedField field;
     withBeginning("is a field that cannot be read: ", [&] { readFieldFile(fileName, field); });
-    if (field.direction == Direction::Forward)
+    const bool isForward = field.direction == Direction::Forward;
+    tell(storyOf(field.direction), isForward ? Turned : AsStored, transform);
+    PointTransform stored;
+    addField(std::move(field), isForward ? stored : transform);
+    if (isForward)
     {
-      throw Problem("is a forward field; Displacement Field Reader reads it");
+      transform.knowsSides = transform.knowsSides && stored.knowsSides;
+      transform.links.push_back(inverseOf(std::move(stored)));
     }
-    addField(std::move(field), transform);
   }
 
   void addBytes(const std::string& fileName, const std::string& bytes, PointTransform& transform)
   {
     if (bytes.rfind(ITKTextBegin, 0) == 0)
     {
+      tell(OfITK, AsStored, transform);
       addRecords(readITKText(bytes), transform);
+    }
+    else if (isLTAText(bytes) || isXFMText(bytes))
+    {
+      PointTransform ras;
+      if (isXFMText(bytes))
+      {
+        tell(
+          "an XFM of the MNI, from its source, the moving image, to its target", Turned, transform);
+        addXFMText(bytes, fileName, ras);
+      }
+      else
+      {
+        const bool isTurned =
+          addLTAText(bytes, { this->Files.fixedImage, this->Files.movingImage }, ras);
+        tell(std::string("an LTA of FreeSurfer, from its src to its dst; its src is the ") +
+            (isTurned ? "moving" : "fixed") + " image",
+          isTurned ? Turned : AsStored, transform);
+      }
+      reverseXY(ras);
+      std::move(ras.links.begin(), ras.links.end(), std::back_inserter(transform.links));
     }
     else if (isElastixText(bytes))
     {
       const auto addNamed = [this](const std::string& named, PointTransform& chain) {
         withBeginning("names the file " + named + ", which ", [&] { this->add(named, chain); });
       };
+      tell("a transform of elastix", AsStored, transform);
       addElastixText(bytes, fileName, addNamed, transform);
     }
     else if (const std::optional<std::vector<double>> rows = matrixText(bytes))
@@ -183,11 +196,13 @@ private:
     }
     else if (std::filesystem::path(fileName).extension() == ".mat")
     {
+      tell(OfITK, AsStored, transform);
       addRecords(readMatlabRecords(bytes), transform);
     }
     else
     {
-      throw Problem("is no transform of ITK, ANTs, elastix, NiftyReg or FSL");
+      throw Problem("is no transform of ITK, ANTs, elastix, NiftyReg, FSL, FreeSurfer or the "
+                    "MNI");
     }
   }
 
@@ -203,13 +218,24 @@ private:
                     "it (Matrix Program): fsl, with the fixed and the moving image (the NIfTI "
                     "files of flirt's -ref and -in), or niftyreg (a matrix from RAS to RAS)");
     }
+    if (program == MatrixProgram::SPM)
+    {
+      throw Problem("holds 16 numbers, and SPM writes none as text; name FSL or NiftyReg as the "
+                    "program that wrote them");
+    }
     if (program == MatrixProgram::NiftyReg)
     {
+      tell("a matrix of NiftyReg, as you say", AsStored, transform);
       addMatrix(rowsOf(signs * matrix * signs), transform);
       return;
     }
-    const glm::dmat4 fixed = readFSLFrame("fixed", this->Files.fixedImage, transform.knowsSides);
-    const glm::dmat4 moving = readFSLFrame("moving", this->Files.movingImage, transform.knowsSides);
+    tell("a matrix of FSL's flirt, in the millimetres of its images", Turned, transform);
+    constexpr const char* Matrix = "a matrix of FSL's flirt, whose points depend on both images";
+    const glm::dmat4 fixed =
+      readFSLFrame({ "fixed", Matrix }, this->Files.fixedImage, transform.knowsSides).worldFromFSL;
+    const glm::dmat4 moving =
+      readFSLFrame({ "moving", Matrix }, this->Files.movingImage, transform.knowsSides)
+        .worldFromFSL;
     if (glm::determinant(matrix) == 0.0)
     {
       throw Problem("holds a matrix without an inverse");
@@ -234,7 +260,8 @@ bool isTransformFile(const std::string& fileName)
     return problemOf([&] { readHDF5Records(fileName); }).empty();
   }
   const std::string begin = readBeginning(fileName, 65536);
-  return begin.rfind(ITKTextBegin, 0) == 0 || isElastixText(begin) || matrixText(begin) ||
+  return begin.rfind(ITKTextBegin, 0) == 0 || isElastixText(begin) || isLTAText(begin) ||
+    isXFMText(begin) || matrixText(begin) ||
     (std::filesystem::path(fileName).extension() == ".mat" &&
       problemOf([&] { readMatlabRecords(begin); }).empty());
 }

@@ -10,10 +10,14 @@
 /// | .nii, .nii.gz, .mha, .mhd, .nrrd  | displacement fields      | FieldFile.h  |
 /// | text, 16 numbers                  | NiftyReg                 | RAS          |
 /// | text, 16 numbers                  | FSL flirt                | FSL's own mm |
+/// | .nii, .nii.gz, intents of FSL     | FSL fnirt, convertwarp   | FSL's own mm |
+/// | .nii, .nii.gz, if SPM is named    | SPM (y_, iy_)            | RAS          |
+/// | .lta                              | FreeSurfer, NiTransforms | RAS, voxels  |
+/// | .xfm                              | the MNI's, FreeSurfer    | RAS          |
 ///
 /// The content decides, not the name. Between NiftyReg and FSL nothing in the file decides, so the
-/// caller must name the program. All map points of the fixed image to the moving one, but for FSL,
-/// whose matrix is turned round.
+/// caller must name the program. All map points of the fixed image to the moving one, but for FSL's
+/// matrices, .lta and .xfm, which are turned round.
 #ifndef BrainShift_TransformFile_h
 #define BrainShift_TransformFile_h
 
@@ -22,20 +26,21 @@
 
 namespace brainshift
 {
-/** Whose a text of 16 numbers is. */
+/** Whose a text of 16 numbers, or a NIfTI file without an intent, is. */
 enum class MatrixProgram
 {
   Unknown,  ///< FSL if an image is named; else such a text is refused
   FSL,      ///< from FSL mm of the moving image to those of the fixed image; it needs both images
   NiftyReg, ///< from RAS mm of the fixed image to those of the moving image
+  SPM,      ///< no text: NIfTI files without an intent hold positions in RAS mm, as SPM's do
 };
 
 /** What is to be read. */
 struct TransformFiles
 {
   std::vector<std::string> names; ///< in the order in which points of the fixed image pass them
-  std::string fixedImage;         ///< NIfTI; for FSL only
-  std::string movingImage;        ///< NIfTI; for FSL only
+  std::string fixedImage;         ///< NIfTI; for FSL, and where an LTA does not say which end it is
+  std::string movingImage;        ///< likewise
   MatrixProgram program = MatrixProgram::Unknown;
 };
 

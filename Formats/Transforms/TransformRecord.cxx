@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <string_view>
 
 namespace brainshift
 {
@@ -17,6 +19,7 @@ namespace
 constexpr double LargestSide = 32768.0; // points of a grid along an axis
 constexpr double LargestNumber = 1e12;  // of mm, rad and voxels alike: no file needs it
 constexpr double SmallestVolume = 1e-9; // determinant of a map that can be turned round
+constexpr const char* OldSpline = "BSplineDeformableTransform"; // before ITK 4
 
 using Numbers = std::vector<double>;
 
@@ -50,6 +53,48 @@ glm::dmat3 versorRotation(const glm::dvec3& vector)
   return glm::mat3_cast(glm::normalize(glm::dquat(real, vector.x, vector.y, vector.z)));
 }
 
+// Of a unit quaternion: requireRotation refuses others.
+glm::dmat3 quaternionRotation(const TransformRecord& record)
+{
+  const Numbers& q = record.parameters;
+  return glm::mat3_cast(glm::normalize(glm::dquat(q[3], q[0], q[1], q[2])));
+}
+
+// ITK adds what scales and skews differ from the identity to the rotation.
+glm::dmat3 scaledVersor(const TransformRecord& record)
+{
+  glm::dmat3 linear = versorRotation(threeOf(record.parameters, 0));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    linear[axis][axis] += threeOf(record.parameters, 6)[axis] - 1.0;
+  }
+  return linear;
+}
+
+glm::dmat3 skewedVersor(const TransformRecord& record)
+{
+  const Numbers& p = record.parameters;
+  glm::dmat3 linear = scaledVersor(record);
+  linear[1][0] += p[9];
+  linear[2][0] += p[10];
+  linear[0][1] += p[11];
+  linear[2][1] += p[12];
+  linear[0][2] += p[13];
+  linear[1][2] += p[14];
+  return linear;
+}
+
+// The later type multiplies: a rotation after scales after skews.
+glm::dmat3 composedVersor(const TransformRecord& record)
+{
+  const Numbers& p = record.parameters;
+  const glm::dmat3 scales(
+    glm::dvec3(p[6], 0.0, 0.0), glm::dvec3(0.0, p[7], 0.0), glm::dvec3(0.0, 0.0, p[8]));
+  const glm::dmat3 skews(
+    glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(p[9], 1.0, 0.0), glm::dvec3(p[10], p[11], 1.0));
+  return versorRotation(threeOf(p, 0)) * scales * skews;
+}
+
 glm::dmat3 eulerRotation(const TransformRecord& record)
 {
   const glm::dmat3 x = turnedAbout(0, record.parameters[0]);
@@ -80,8 +125,13 @@ const std::map<std::string, LinearType>& linearTypes()
   static const std::map<std::string, LinearType> types{
     { "AffineTransform", { 12, 9, matrix } },
     { "MatrixOffsetTransformBase", { 12, 9, matrix } },
+    { "Rigid3DTransform", { 12, 9, matrix } },
     { "Euler3DTransform", { 6, 3, eulerRotation } },
+    { "QuaternionRigidTransform", { 7, 4, quaternionRotation } },
     { "VersorRigid3DTransform", { 6, 3, versor } },
+    { "ScaleVersor3DTransform", { 9, 3, scaledVersor } },
+    { "ScaleSkewVersor3DTransform", { 15, 3, skewedVersor } },
+    { "ComposeScaleSkewVersor3DTransform", { 12, 3, composedVersor } },
     { "Similarity3DTransform", { 7, 3, similar } },
     { "TranslationTransform",
       { 3, 0, [](const TransformRecord&) { return glm::dmat3(1.0); }, false } },
@@ -89,17 +139,45 @@ const std::map<std::string, LinearType>& linearTypes()
   return types;
 }
 
-void addAffine(const AffineLink& link, PointTransform& transform)
+AffineLink requiredAffine(const AffineLink& link)
 {
   const double volume = std::abs(glm::determinant(link.linear));
   if (!(volume > SmallestVolume) || !std::isfinite(volume))
   {
     throw Problem("holds a matrix without an inverse");
   }
-  transform.links.emplace_back(link);
+  return link;
 }
 
-void addLinear(const LinearType& type, const TransformRecord& record, PointTransform& transform)
+// Throws unless a rotation is one: ITK refuses some of these, and would scale by others.
+void requireRotation(const TransformRecord& record, const glm::dmat3& linear)
+{
+  constexpr double LargestOfNorm = 1e-5; // 0.001 mm in 100 mm
+  constexpr double Largest = 1e-4;       // of a cosine, and of a length from 1
+  const bool isQuaternion = record.type.rfind("Quaternion", 0) == 0;
+  const bool isRigid = record.type.rfind("Rigid3D", 0) == 0;
+  double norm = 0.0;
+  for (int i = 0; i < 4 && isQuaternion; ++i)
+  {
+    norm += record.parameters[i] * record.parameters[i];
+  }
+  if (isQuaternion && !(std::abs(norm - 1.0) <= LargestOfNorm))
+  {
+    throw Problem(joined("has a quaternion of length ", std::sqrt(norm),
+      ", which ITK would scale by; it must be 1. Write it again as an AffineTransform"));
+  }
+  const glm::dmat3 square = glm::transpose(linear) * linear - glm::dmat3(1.0);
+  for (int i = 0; i < 9 && isRigid; ++i)
+  {
+    if (!(std::abs(square[i / 3][i % 3]) <= Largest))
+    {
+      throw Problem("has a matrix of Rigid3DTransform that is no rotation, which ITK does not "
+                    "read; write it again as an AffineTransform");
+    }
+  }
+}
+
+AffineLink linearOf(const LinearType& type, const TransformRecord& record)
 {
   if (record.parameters.size() != type.parameters)
   {
@@ -115,8 +193,9 @@ void addLinear(const LinearType& type, const TransformRecord& record, PointTrans
   }
   const glm::dvec3 centre = found > 0 ? threeOf(record.fixed, 0) : glm::dvec3(0.0);
   const glm::dmat3 linear = type.linear(record);
+  requireRotation(record, linear);
   const glm::dvec3 shift = threeOf(record.parameters, type.translation);
-  addAffine({ linear, shift + centre - linear * centre }, transform);
+  return requiredAffine({ linear, shift + centre - linear * centre });
 }
 
 // The grid in the fixed parameters: sizes, origin, spacing, direction by rows.
@@ -158,7 +237,7 @@ void readGrid(const TransformRecord& record, int smallestSide, LinkGrid& grid)
 }
 
 // All x, then all y, then all z.
-void addSpline(const TransformRecord& record, PointTransform& transform)
+SplineLink splineOf(const TransformRecord& record)
 {
   SplineLink link;
   readGrid(record, 4, link.grid);
@@ -169,11 +248,11 @@ void addSpline(const TransformRecord& record, PointTransform& transform)
     const Numbers& numbers = record.parameters;
     link.coefficients[i] = { numbers[i], numbers[count + i], numbers[2 * count + i] };
   }
-  transform.links.emplace_back(std::move(link));
+  return link;
 }
 
 // x, y and z of each point together.
-void addField(const TransformRecord& record, PointTransform& transform)
+FieldLink fieldOf(const TransformRecord& record)
 {
   FieldLink link;
   readGrid(record, 1, link.grid);
@@ -182,38 +261,109 @@ void addField(const TransformRecord& record, PointTransform& transform)
   {
     link.displacements[i] = glm::vec3(threeOf(record.parameters, 3 * i));
   }
-  transform.links.emplace_back(std::move(link));
+  return link;
 }
 
-void addRecord(const TransformRecord& record, PointTransform& transform)
+// The parameters are the landmarks that points are mapped from, the fixed ones those they go to.
+TransformLink thinPlatesOf(const TransformRecord& record)
+{
+  if (record.parameters.size() != record.fixed.size() || record.parameters.size() % 3 != 0)
+  {
+    throw Problem(joined("has ", record.parameters.size(), " parameters and ", record.fixed.size(),
+      " fixed parameters of ", record.type,
+      "; they must be as many, 3 for each landmark before and after"));
+  }
+  std::vector<glm::dvec3> sources;
+  std::vector<glm::dvec3> targets;
+  for (std::size_t i = 0; i < record.fixed.size(); i += 3)
+  {
+    sources.push_back(threeOf(record.parameters, i));
+    targets.push_back(threeOf(record.fixed, i));
+  }
+  return throughLandmarks(sources, targets);
+}
+
+// The name of a type without its numbers: AffineTransform of AffineTransform_double_3_3. Empty if
+// these are not of three dimensions.
+std::string nameOf(const TransformRecord& record)
+{
+  const std::size_t end = std::min(record.type.find('_'), record.type.size());
+  const std::string kind = record.type.substr(end);
+  return kind == "_double_3_3" || kind == "_float_3_3" ? record.type.substr(0, end) : "";
+}
+
+// The link of a type that is none of Slicer's inverses. None: the identity.
+std::optional<TransformLink> linkOf(const std::string& name, const TransformRecord& record)
+{
+  if (const auto linear = linearTypes().find(name); linear != linearTypes().end())
+  {
+    return linearOf(linear->second, record);
+  }
+  if (name == "BSplineTransform" || name == OldSpline)
+  {
+    return splineOf(record);
+  }
+  if (name == "DisplacementFieldTransform")
+  {
+    return fieldOf(record);
+  }
+  if (name == "ThinPlateSplineKernelTransform")
+  {
+    return thinPlatesOf(record);
+  }
+  if (name != "IdentityTransform")
+  {
+    throw Problem("holds the transform " + shownWords(record.type) +
+      ", which BrainShift does not know; it knows affine and rigid transforms, cubic B-splines, "
+      "displacement fields, thin plates and composites of these, in three dimensions");
+  }
+  return {};
+}
+
+void requireNumbers(const TransformRecord& record)
 {
   if (!areFinite(record.parameters) || !areFinite(record.fixed))
   {
     throw Problem("holds a number that is not finite, or beyond 1e12");
   }
-  const std::size_t end = record.type.find('_');
-  const std::string name = record.type.substr(0, end);
-  const std::string kind = end == std::string::npos ? "" : record.type.substr(end);
-  const auto linear = linearTypes().find(name);
-  const bool isSpace = kind == "_double_3_3" || kind == "_float_3_3";
-  if (isSpace && linear != linearTypes().end())
+}
+
+// 3D Slicer puts Inverse before the name of a map of which it only knows the other direction.
+void addRecord(const TransformRecord& record, PointTransform& transform)
+{
+  constexpr std::string_view Inverse = "Inverse";
+  requireNumbers(record);
+  const std::string name = nameOf(record);
+  const bool isInverse = name.rfind(Inverse, 0) == 0;
+  std::optional<TransformLink> link =
+    linkOf(isInverse ? name.substr(Inverse.size()) : name, record);
+  if (link && isInverse)
   {
-    addLinear(linear->second, record, transform);
+    link = inverseOf({ { *std::move(link) } });
   }
-  else if (isSpace && name == "BSplineTransform")
+  if (link)
   {
-    addSpline(record, transform);
+    transform.links.push_back(*std::move(link));
   }
-  else if (isSpace && name == "DisplacementFieldTransform")
+}
+
+// Before ITK 4, a B-spline and its bulk stood in one file, and the bulk was added to it.
+void addOldSpline(const std::vector<TransformRecord>& records, PointTransform& transform)
+{
+  const auto bulk = linearTypes().find(nameOf(records.back()));
+  const bool isIdentity = nameOf(records.back()) == "IdentityTransform";
+  const bool isPair = records.size() == 2 && nameOf(records.front()) == OldSpline;
+  if (!isPair || (bulk == linearTypes().end() && !isIdentity))
   {
-    addField(record, transform);
+    throw Problem("holds " + std::to_string(records.size()) +
+      " transforms, one of them a BSplineDeformableTransform, which may have only its bulk after "
+      "it, an affine transform; write it again as a CompositeTransform");
   }
-  else if (!isSpace || name != "IdentityTransform")
-  {
-    throw Problem("holds the transform " + shownWords(record.type) +
-      ", which BrainShift does not know; it knows affine and rigid transforms, cubic B-splines, "
-      "displacement fields and composites of these, in three dimensions");
-  }
+  requireNumbers(records.front());
+  requireNumbers(records.back());
+  SplineLink spline = splineOf(records.front());
+  spline.base = isIdentity ? AffineLink() : linearOf(bulk->second, records.back());
+  transform.links.emplace_back(std::move(spline));
 }
 
 bool isComposite(const TransformRecord& record)
@@ -241,6 +391,20 @@ void addRecords(const std::vector<TransformRecord>& records, PointTransform& tra
   {
     throw Problem("holds no transform");
   }
+  const bool hasOldSpline = std::any_of(records.begin(), records.end(),
+    [](const TransformRecord& record) { return nameOf(record) == OldSpline; });
+  if (first == 0 && records.size() > 1 && hasOldSpline)
+  {
+    addOldSpline(records, transform);
+    return;
+  }
+  if (first == 0 && records.size() > 1)
+  {
+    throw Problem("holds " + std::to_string(records.size()) +
+      " transforms and does not say how they follow one another: they may be those of the volumes "
+      "of a series. Write the one that you want to a file of its own, or all of them as one "
+      "CompositeTransform");
+  }
   for (std::size_t i = records.size(); i > first; --i)
   {
     addRecord(records[i - 1], transform);
@@ -260,6 +424,6 @@ void addMatrix(const std::vector<double>& rows, PointTransform& transform)
   }
   const glm::dmat3 linear = glm::transpose(glm::dmat3(glm::dvec3(rows[0], rows[1], rows[2]),
     glm::dvec3(rows[4], rows[5], rows[6]), glm::dvec3(rows[8], rows[9], rows[10])));
-  addAffine({ linear, { rows[3], rows[7], rows[11] } }, transform);
+  transform.links.emplace_back(requiredAffine({ linear, { rows[3], rows[7], rows[11] } }));
 }
 }

@@ -21,7 +21,8 @@ struct TransformRecord
 
 /**
  * Adds the links of records, in LPS, or throws the end of a sentence, after the name of the file.
- * ITK's composite applies its last record first, and so does this for several records.
+ * ITK's composite applies its last record first. Of several records without a composite, only a
+ * BSplineDeformableTransform with its bulk after it says what they are together.
  */
 void addRecords(const std::vector<TransformRecord>& records, PointTransform& transform);
 

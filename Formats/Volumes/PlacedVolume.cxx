@@ -3,6 +3,7 @@
 
 #include "Common/HostMemory.h"
 #include "Common/Parallel.h"
+#include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 
 #include "vtkDataArray.h"
@@ -254,5 +255,20 @@ void PlacedVolume::read(
     vtkTemplateMacro(moveVoxelsOf<VTK_TT>(
       stored.image, image, this->Geometry, stored.firstComponent, this->Header.rescaling));
   }
+}
+
+PlacedVolume openVolume(const std::string& fileName)
+{
+  withBeginning("Volume " + fileName + " ", [&] { requirePlainFile(fileName); });
+  for (const VolumeFormat* format : volumeFormats())
+  {
+    if (format->isOne(fileName))
+    {
+      PlacedVolume volume(format->make());
+      volume.readHeader(fileName);
+      return volume;
+    }
+  }
+  throw Problem("Volume " + fileName + " is of no format that BrainShift reads");
 }
 }

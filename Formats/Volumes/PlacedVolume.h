@@ -56,6 +56,9 @@ private:
   VolumeHeader Header;
   RasGrid Geometry;
 };
+
+/** The volume of a file of any format, its header read. Throws one sentence. */
+PlacedVolume openVolume(const std::string& fileName);
 }
 
 #endif

@@ -98,6 +98,8 @@ public:
   bool GetLuminance() const { return this->Luminance; }
   ///@}
 
+  ///@{
+  /**
    * Which resolution (level) of a file with several to read: 0 is the finest, -1 the finest whose
    * numbers fit MemoryLimit. Default: -1.
    */

@@ -16,6 +16,7 @@ Research software, not a medical device.
 from .answers import counters, gpu, pick, slice_axes
 from .batching import Done, batch
 from .cases import Case
+from .directions import MapDirection, direction
 from .figures import animate, figure
 from .files import (
     dicom_patient, load_field, load_lattice, save_dicom, save_field, save_lattice,
@@ -39,9 +40,11 @@ from .windows import percentile_window
 
 __all__ = [
     "Alignment", "Case", "Done", "ElectrodeGrid", "Electrodes", "Fit", "MOVE",
-    "NUMBERS_PER_STROKE", "Refinement", "RegistrationFailed", "Resection", "SOFT", "STAMP", "Step",
+    "MapDirection", "NUMBERS_PER_STROKE", "Refinement", "RegistrationFailed", "Resection", "SOFT",
+    "STAMP", "Step",
     "TargetErrors", "Transform", "align", "animate", "apply_transform", "batch", "counters",
-    "deformed_from_rest", "dicom_patient", "electrodes", "figure", "fit", "four_views", "gpu",
+    "deformed_from_rest", "dicom_patient", "direction", "electrodes", "figure", "fit", "four_views",
+    "gpu",
     "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
     "percentile_window", "pick", "read_points", "read_transform", "refine", "report", "resect",
     "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_segmentation",

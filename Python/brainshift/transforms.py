@@ -10,8 +10,8 @@ from .views import world_axes
 #: Reverses x and y: from LPS, in which ITK's files are, to RAS and back.
 _LPS = (-1.0, -1.0, 1.0, 1.0)
 _DIRECTIONS = ("backward", "forward")
-#: Programs that write 16 numbers as text, and their words in the property MatrixProgram.
-_PROGRAMS = {None: "Unknown", "fsl": "FSL", "niftyreg": "NiftyReg"}
+#: Programs whose files do not name them, and their words in the property MatrixProgram.
+_PROGRAMS = {None: "Unknown", "fsl": "FSL", "niftyreg": "NiftyReg", "spm": "SPM"}
 
 
 def _direction(direction):
@@ -30,7 +30,8 @@ def _names(files):
 def _program(program):
     word = program.lower() if isinstance(program, str) else program
     if word not in _PROGRAMS:
-        raise ValueError(f"program is {program!r}; it must be 'fsl', 'niftyreg' or None")
+        raise ValueError(f"program is {program!r}; it must be 'fsl', 'niftyreg', 'spm' or "
+                         "None")
     return _PROGRAMS[word]
 
 
@@ -85,6 +86,15 @@ class Transform:
         Returns an N x 3 array of positions in mm, world axes. A point outside a B-spline or a field
         does not move, as in ITK. A point where the field has no finite number becomes NaN.
         """
+        return self._mapped(points, "MappedPoints")
+
+    def map_back(self, points):
+        """Take points of the moving image to the fixed one: the inverse of `map`, solved for each
+        point. Points and result as in `map`. Where the map folds, one of its places is returned.
+        """
+        return self._mapped(points, "MappedBackPoints")
+
+    def _mapped(self, points, answer):
         import numpy
         points = numpy.asarray(points, float)
         if points.ndim != 2 or points.shape[1] != 3:
@@ -96,11 +106,11 @@ class Transform:
         self._report.GetProperty("Points").SetElements(numbers)
         self._report.UpdateVTKObjects()
         self._report.UpdatePropertyInformation()
-        return _answer(self._report, "MappedPoints").reshape(-1, 3)
+        return _answer(self._report, answer).reshape(-1, 3)
 
 
 def read_transform(files, world="RAS", fixed_image=None, moving_image=None, program=None):
-    """Read a transform of ITK, Slicer, ANTs, elastix, NiftyReg or FSL.
+    """Read a transform of ITK, Slicer, ANTs, elastix, FSL, FreeSurfer, SPM, NiftyReg or MINC.
 
     Such a transform takes points of the fixed image to the moving one. Images are resampled with
     it.
@@ -110,12 +120,15 @@ def read_transform(files, world="RAS", fixed_image=None, moving_image=None, prog
       files are read where the volumes are.
     - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of your points and volumes.
     - `fixed_image`, `moving_image`: the NIfTI files of the options `-ref` and `-in` of FSL's
-      `flirt`. FSL's matrices are undefined without them. Other files do not need them.
-    - `program`: `"fsl"` or `"niftyreg"`, the program that wrote a text file of 16 numbers. The file
-      does not say it. `"niftyreg"` is a matrix from RAS to RAS, from the fixed image to the moving
-      one. The default, `None`, counts as `"fsl"` if an image is named; else such a file is refused.
+      `flirt` and `fnirt`. FSL's matrices and coefficients are undefined without both, its warps
+      without the moving image. An `.lta` leads from its `src` to its `dst`: without images, `src`
+      is the moving image, as FreeSurfer has it. Other files do not need images.
+    - `program`: the program that wrote a file that does not name it. `"fsl"`, a text of 16 numbers.
+      `"niftyreg"`, such a text from RAS to RAS, from the fixed image to the moving one. `"spm"`, a
+      NIfTI file of three numbers at each voxel: positions in RAS, as in SPM's `y_` and `iy_` files.
+      The default, `None`, counts as `"fsl"` if an image is named; else such a file is refused.
 
-    Returns a `Transform` with `kind`, `moving_from_fixed` and `map(points)`.
+    Returns a `Transform` with `kind`, `moving_from_fixed`, `map(points)` and `map_back(points)`.
 
     Raises `OSError` with the reason if a file cannot be read.
     """

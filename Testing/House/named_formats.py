@@ -15,8 +15,8 @@ NEEDS = {
     "Formats/Surfaces/SurfaceFile.cxx": {
         "Formats/MGH": "FreeSurfer's surfaces lie in the frame of its volumes",
         "Formats/NIFTI": "a volume that gives a surface its frame may be NIfTI"},
-    "Formats/Transforms/TransformFile.cxx": {
-        "Formats/NIFTI": "NiftyReg's and FSL's matrices lie between the voxels of NIfTI files"},
+    "Formats/Transforms/FSLWarp.cxx": {
+        "Formats/NIFTI": "FSL's maps lie between the voxels of NIfTI files"},
     "Formats/Writers/vtkVolumeFileWriter.cxx": {
         "Formats/DICOM": "a series is a folder, which no other format writes"},
 }

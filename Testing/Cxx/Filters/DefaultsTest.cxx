@@ -255,6 +255,7 @@ TEST(Defaults, OfSurfaceFilesLiveInTheClasses)
   const Defaults ofSurface{ { "VolumeCenter", { center[0], center[1], center[2] } } };
   EXPECT_EQ(defaultsIn("Formats/Surfaces/SurfaceReader.xml"), ofSurface);
   EXPECT_EQ(defaultsIn("Formats/Surfaces/TractReader.xml"), Defaults());
+  EXPECT_EQ(defaultsIn("Formats/Surfaces/TractWriter.xml"), Defaults());
 }
 
 TEST(Defaults, OfVolumeFilesLiveInTheClass)

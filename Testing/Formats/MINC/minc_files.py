@@ -12,7 +12,7 @@ import numpy
 REAL, INTEGER, LABEL = 0, 1, 2  # classes of volumes
 TYPES = {"int8": 1, "int16": 3, "int32": 4, "float32": 5, "float64": 6, "uint8": 100,
          "uint16": 101, "uint32": 102}
-SPATIAL, TIME, REGULAR, FILE_ORDER = 1, 2, 1, 0
+SPATIAL, TIME, RECORD, REGULAR, FILE_ORDER = 1, 2, 6, 1, 0
 
 
 def library():
@@ -33,6 +33,8 @@ def _dimension(minc, name, kind, count, start, step, cosines=None):
     handle = ctypes.c_void_p()
     _done(minc.micreate_dimension(name.encode(), kind, REGULAR, ctypes.c_ulonglong(count),
                                   ctypes.byref(handle)), "dimension")
+    if kind == RECORD:
+        return handle
     _done(minc.miset_dimension_start(handle, ctypes.c_double(start)), "start")
     _done(minc.miset_dimension_separation(handle, ctypes.c_double(step)), "separation")
     if cosines is not None:
@@ -89,6 +91,30 @@ def write(name, voxels, affine, kind=REAL, times=None, slice_ranges=None, labels
     stored = numpy.ascontiguousarray(voxels)
     _done(minc.miset_voxel_value_hyperslab(
         volume, TYPES[voxels.dtype.name], _sizes([0] * voxels.ndim), _sizes(voxels.shape),
+        stored.ctypes.data_as(ctypes.c_void_p)), "voxels")
+    _done(minc.miclose_volume(volume), "close")
+    return name
+
+
+def write_vectors(name, vectors, affine, isFirst=False):
+    """Writes vectors [i, j, k, 3], float32, with the components as the last axis or the first."""
+    minc = library()
+    if os.path.exists(name):
+        os.remove(name)
+    dimensions = _space(minc, vectors.shape[:3], affine)
+    dimensions.insert(0 if isFirst else 3, _dimension(minc, "vector_dimension", RECORD, 3, 0, 1))
+    stored = numpy.ascontiguousarray(
+        numpy.moveaxis(vectors, 3, 0) if isFirst else vectors, numpy.float32)
+    volume, props = ctypes.c_void_p(), ctypes.c_void_p()
+    _done(minc.minew_volume_props(ctypes.byref(props)), "properties")
+    _done(minc.micreate_volume(name.encode(), 4, (ctypes.c_void_p * 4)(*dimensions),
+                               TYPES["float32"], REAL, props, ctypes.byref(volume)), "volume")
+    _done(minc.micreate_volume_image(volume), "image")
+    high, low = ctypes.c_double(stored.max()), ctypes.c_double(stored.min())
+    _done(minc.miset_volume_valid_range(volume, high, low), "valid range")
+    _done(minc.miset_volume_range(volume, high, low), "range")
+    _done(minc.miset_voxel_value_hyperslab(
+        volume, TYPES["float32"], _sizes([0] * 4), _sizes(stored.shape),
         stored.ctypes.data_as(ctypes.c_void_p)), "voxels")
     _done(minc.miclose_volume(volume), "close")
     return name

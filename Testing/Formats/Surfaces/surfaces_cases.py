@@ -4,9 +4,11 @@
 nibabel does not place surfaces: here two lines of numpy do, by what nibabel finds in the file.
 """
 
+import json
 import os
 import struct
 import warnings
+import zipfile
 
 import nibabel
 import numpy
@@ -90,11 +92,37 @@ def read_tracts(name):
     return numpy.concatenate([numpy.zeros((0, 3)), *lines]), [len(line) for line in lines]
 
 
+def trx(random, name):
+    numbers = numpy.random.default_rng(random.randrange(1 << 30))
+    counts = [random.randrange(1, 6) for _ in range(random.randrange(1, 5))]
+    points = numbers.uniform(-90, 90, (sum(counts), 3)).astype("<f4")
+    header = {"DIMENSIONS": [9, 9, 9], "VOXEL_TO_RASMM": numpy.eye(4).tolist(),
+              "NB_VERTICES": len(points), "NB_STREAMLINES": len(counts)}
+    method = random.choice((zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED))
+    with zipfile.ZipFile(name, "w", method) as archive:
+        archive.writestr("header.json", json.dumps(header))
+        archive.writestr("positions.3.float32", points.tobytes())
+        archive.writestr("offsets.uint64", numpy.cumsum([0, *counts]).astype("<u8").tobytes())
+        archive.writestr("dpv/fa.float16", numpy.ones(len(points), "<f2").tobytes())
+        archive.writestr("groups/CST.uint32", numpy.zeros(1, "<u4").tobytes())
+
+
+def read_trx(name):
+    with zipfile.ZipFile(name) as archive:
+        header = json.loads(archive.read("header.json"))
+        points = numpy.frombuffer(archive.read("positions.3.float32"), "<f4").reshape(-1, 3)
+        firsts = numpy.frombuffer(archive.read("offsets.uint64"), "<u8").astype(numpy.int64)
+    if (len(points), len(firsts) - 1) != (header["NB_VERTICES"], header["NB_STREAMLINES"]):
+        raise Wrong("other sizes than the header announces")
+    return points.astype(float), numpy.diff(firsts).tolist()
+
+
 #: By the name of a file: what makes it, the second reader, and our reader.
 FORMATS = {"lh.pial": (freesurfer, read_freesurfer, "SurfaceReader"),
            "case.surf.gii": (gifti, read_gifti, "SurfaceReader"),
            "case.trk": (tracts, read_tracts, "TractReader"),
-           "case.tck": (tracts, read_tracts, "TractReader")}
+           "case.tck": (tracts, read_tracts, "TractReader"),
+           "case.trx": (trx, read_trx, "TractReader")}
 
 
 def _spoil(random, name, data):

@@ -326,7 +326,7 @@ TEST(TextHeaderVolume, HeadersThatCannotBe)
   nrrd("uchar", "block", "has the type block; BrainShift reads");
   nrrd("raw", "bzip2", "has the encoding bzip2; it must be raw, gzip or ascii");
   nrrd("type: uchar", "type: short", "has the endian ''; it must be little or big");
-  nrrd("space: RAS", "space: RAST", "is in the space RAST");
+  nrrd("space: RAS", "space: RSA", "is in the space RSA");
   nrrd("(0,1,0)", "(0,1,0", "has the space directions");
   nrrd("(0,1,0)", "none", "has 2 axes in space; a volume must have 3");
   nrrd("(0,1,0)", "(1,0,0)", "singular");

@@ -94,7 +94,7 @@ TEST(PointTransform, TurnsBack)
 TEST(PointTransform, ReadsTheNearestPointOfAField)
 {
   const SplineLink spline = randomSpline();
-  FieldLink field{ spline.grid, {}, /*isNearest*/ true };
+  FieldLink field{ spline.grid, {}, Between::Nearest };
   for (std::size_t point = 0; point < spline.grid.count(); ++point)
   {
     field.displacements.emplace_back(point % spline.grid.dimensions.x, 0.0f, 0.0f);

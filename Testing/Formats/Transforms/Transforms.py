@@ -195,7 +195,7 @@ def test_matrix_of_niftyreg_is_ras():
     matrix[:3, :3], matrix[:3, 3] = numpy.reshape(MATRIX, (3, 3)), SHIFT
     name = write("niftyreg.txt", "\n".join(numbers(row) for row in matrix))
     raises(OSError, "name the program", brainshift.read_transform, name)
-    raises(ValueError, "'niftyreg'", brainshift.read_transform, name, program="spm")
+    raises(ValueError, "'niftyreg'", brainshift.read_transform, name, program="elastix")
     transform = brainshift.read_transform(name, program="niftyreg")
     assert numpy.abs(transform.moving_from_fixed - matrix).max() < 1e-12
     bent = FreeFormDeformation(Input=BOX)

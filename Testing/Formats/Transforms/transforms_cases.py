@@ -9,6 +9,25 @@ from outside_testing import itk_text, parameter_file, write_hdf5, write_matlab
 AFFINE = ("AffineTransform", (1.1, 0.1, 0, 0, 0.9, 0.2, 0, 0.1, 1, 4, -5, 6), (7, 8, 9))
 SPLINE = ("BSplineTransform", numpy.linspace(-3, 3, 360),
           (4, 5, 6, -10, 20, 30, 9, 8, 7, 1, 0, 0, 0, 1, 0, 0, 0, 1))
+PLATES = ("ThinPlateSplineKernelTransform",
+          (0, 0, 0, 50, 0, 0, 0, 50, 0, 0, 0, 50, 30, 30, 30),
+          (1, 0, 0, 50, 2, 0, 0, 50, 3, 4, 0, 50, 32, 31, 30))
+OLD = ("BSplineDeformableTransform", *SPLINE[1:])
+GEOMETRY = """valid = 1  # volume info valid
+filename = some.mgz
+volume = 30 40 50
+voxelsize = 2.0 1.5 1.25
+xras = -1 0 0
+yras = 0 0 -1
+zras = 0 1 0
+cras = 3 -4 5
+"""
+LTA = ("type      = 0 # LINEAR_VOX_TO_VOX\nnxforms   = 1\nmean = 0 0 0\nsigma = 1\n1 4 4\n"
+       "1.1 0.1 0 4\n0 0.9 0.2 -5\n0 0.1 1 6\n0 0 0 1\n"
+       f"src volume info\n{GEOMETRY}dst volume info\n{GEOMETRY}fscale 0.1\n")
+XFM = ("MNI Transform File\n% a comment\nTransform_Type = Linear;\nInvert_Flag = True;\n"
+       "Linear_Transform =\n1.1 0.1 0 4\n0 0.9 0.2 -5\n0 0.1 1 6;\nTransform_Type = Linear;\n"
+       "Linear_Transform =\n1.1 0.1 0 4\n0 0.9 0.2 -5\n0 0.1 1 6;\n")
 #: A spoiled file is spoiled near its beginning in most cases: there are sizes and names.
 BEGIN, BEGIN_SHARE = 3000, 0.7
 
@@ -44,6 +63,11 @@ class Cases:
         with open(parameter_file("for_fuzz.txt", SPLINE)) as made:
             with open(self.good[".txt"], "w") as file:
                 file.write(made.read())
+        for ending, text in ((".lta", LTA), (".xfm", XFM), ("_old.tfm", itk_text(OLD, AFFINE)),
+                             ("_plates.tfm", itk_text(PLATES))):
+            self.good[ending] = os.path.join(folder, "good" + ending)
+            with open(self.good[ending], "w") as file:
+                file.write(text)
         write_matlab(self.good[".mat"], AFFINE)
         write_hdf5(self.good[".h5"], *members)
 
