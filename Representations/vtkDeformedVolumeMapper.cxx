@@ -8,6 +8,7 @@
 #include "Representations/Picture/VolumeDevice.h"
 #include "Representations/Scene/OverVolumes.h"
 #include "Representations/Scene/Remarks.h"
+#include "Representations/Window/RankParts.h"
 
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkImageData.h"
@@ -20,6 +21,7 @@
 #include "vtkVolumeProperty.h"
 
 #include <cmath>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -57,8 +59,8 @@ struct vtkDeformedVolumeMapper::State
 {
   WindowDevices<VolumeDevice> Devices;
   Counters Count;
-  SceneDeformation Deformation; // of the input
-  std::vector<double> Part;     // that is drawn, bounds of the deformed frame, mm; empty: all of it
+  SceneDeformation Deformation;  // of the input
+  std::optional<DrawnPart> Part; // none: all of it
 
   bool TakesInput = false;
   unsigned long long SettingsTime = 0; // of the last change other than of the input
@@ -110,9 +112,9 @@ double* vtkDeformedVolumeMapper::GetBounds()
 {
   vtkVolumeMapper::GetBounds();
   auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
-  if (image && !this->Internal->Part.empty())
+  if (image && this->Internal->Part)
   {
-    std::copy_n(this->Internal->Part.data(), 6, this->Bounds);
+    std::copy_n(this->Internal->Part->bounds.data(), 6, this->Bounds);
   }
   else if (image)
   {
@@ -139,16 +141,15 @@ const Lattice* vtkDeformedVolumeMapper::GetLattice(vtkImageData* image)
   return deformation.deformed ? &deformation.lattice : nullptr;
 }
 
-void vtkDeformedVolumeMapper::SetDrawnPart(const double* bounds)
+void vtkDeformedVolumeMapper::SetDrawnPart(const DrawnPart* part)
 {
-  std::vector<double> part;
-  if (bounds)
+  std::optional<DrawnPart>& known = this->Internal->Part;
+  const bool isSame = part ? known && known->bounds == part->bounds && known->cut == part->cut &&
+      known->whole == part->whole
+                           : !known;
+  if (!isSame)
   {
-    part.assign(bounds, bounds + 6);
-  }
-  if (part != this->Internal->Part)
-  {
-    this->Internal->Part = part;
+    known = part ? std::optional(*part) : std::nullopt;
     this->Modified();
   }
 }
@@ -234,7 +235,15 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.wish.adaptive = this->AdaptiveQuality;
   request.wish.keep = this->KeepPicture || OverVolumes::areVisibleIn(renderer);
   request.wish.countSamples = this->CountSamples;
-  request.part = state.Part;
+  if (state.Part)
+  {
+    request.part.assign(state.Part->cut.begin(), state.Part->cut.end());
+    const Extent& whole = state.Part->whole;
+    const int* extent = image->GetExtent();
+    const glm::dvec3 first(extent[0], extent[2], extent[4]);
+    request.wholeLow = glm::dvec3(whole[0], whole[2], whole[4]) - first;
+    request.wholeHigh = glm::dvec3(whole[1], whole[3], whole[5]) - first;
+  }
   request.wish.occlusion = { this->OcclusionDarkness(), this->OcclusionRadiusOn(image, volume) };
   request.wish.rate = window->GetDesiredUpdateRate();
   request.wish.settingsTime = state.SettingsTime;
@@ -313,7 +322,7 @@ double vtkDeformedVolumeMapper::StepOn(const Grid& grid)
 // A part does not know what tissue of others is beside it.
 double vtkDeformedVolumeMapper::OcclusionDarkness()
 {
-  if (this->Internal->Part.empty() || this->AmbientOcclusion <= 0.0)
+  if (!this->Internal->Part || this->AmbientOcclusion <= 0.0)
   {
     return this->AmbientOcclusion;
   }
@@ -387,6 +396,11 @@ bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double p
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   VolumeDevice* device = this->Internal->Devices.find(window);
   const int* size = renderer->GetSize();
+  vtkDataSet* image = this->GetDataSetInput();
+  if (!image || image->GetNumberOfPoints() == 0) // another MPI rank draws all of it now
+  {
+    return false;
+  }
   if (!device || x < 0 || y < 0 || x >= size[0] || y >= size[1])
   {
     return false;

@@ -35,6 +35,7 @@ class vtkVolumeProperty;
 namespace brainshift
 {
 struct Counters;
+struct DrawnPart;
 struct DrawnValues;
 struct Grid;
 struct Lattice;
@@ -231,10 +232,10 @@ public:
   ///@{
   /** For several MPI ranks that draw a part of the deformed frame each. Widens bounds (mm; x, y, z,
    * least and greatest each) by where an image's tissue can go; the deformation of an image, null
-   * if it has none; bounds (mm) of the part to draw, null (default): all of it. */
+   * if it has none; the part to draw, null (default): all of it. */
   void WidenByTissue(vtkImageData* image, double bounds[6]);
   const brainshift::Lattice* GetLattice(vtkImageData* image);
-  void SetDrawnPart(const double* bounds);
+  void SetDrawnPart(const brainshift::DrawnPart* part);
   ///@}
 
   /**

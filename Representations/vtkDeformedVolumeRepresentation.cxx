@@ -210,11 +210,13 @@ void vtkDeformedVolumeRepresentation::CoverPointSelection(vtkObject* caller, uns
   }
 }
 
-// Ranks blend what they drew from front to back, which is right for these two modes alone.
+// Ranks blend what they drew from front to back, which is right for these two modes alone. Opacity
+// by gradients depends on the range of all values, of which a rank knows a part.
 bool vtkDeformedVolumeRepresentation::CanDrawParts() const
 {
   const int blend = this->VolumeMapper->GetBlendMode();
-  return !this->VolumeMapper->GetCropping() &&
+  return !this->VolumeMapper->GetCropping() && !this->UseTransfer2D &&
+    this->GradientFactors->GetSize() == 0 &&
     (blend == vtkVolumeMapper::COMPOSITE_BLEND || blend == vtkVolumeMapper::ISOSURFACE_BLEND);
 }
 
@@ -230,7 +232,7 @@ std::array<int, 6> vtkDeformedVolumeRepresentation::RestExtent(const brainshift:
   return brainshift::restExtent(whole, lattice, part, haloMm);
 }
 
-void vtkDeformedVolumeRepresentation::SetDrawnPart(const double* part)
+void vtkDeformedVolumeRepresentation::SetDrawnPart(const brainshift::DrawnPart* part)
 {
   this->GetDeformedVolumeMapper()->SetDrawnPart(part);
 }

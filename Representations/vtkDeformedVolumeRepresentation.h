@@ -111,7 +111,7 @@ protected:
   void WidenByTissue(vtkImageData* volume, double bounds[6]) override;
   std::array<int, 6> RestExtent(const brainshift::WholeVolume& whole, vtkImageData* volume,
     const std::array<double, 6>& part, double haloMm) override;
-  void SetDrawnPart(const double* part) override;
+  void SetDrawnPart(const brainshift::DrawnPart* part) override;
 
   bool AddToView(vtkView* view) override;
   bool RemoveFromView(vtkView* view) override;

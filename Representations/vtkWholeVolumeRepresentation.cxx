@@ -113,6 +113,7 @@ void vtkWholeVolumeRepresentation::SetRankHalo(double halo)
   if (halo != this->RankHalo)
   {
     this->RankHalo = halo;
+    this->Wanted = NoExtent;
     this->MarkModified();
   }
 }
@@ -184,12 +185,16 @@ void vtkWholeVolumeRepresentation::ShareOut()
   const bool drawsPart =
     !isTrueOnAny(!this->Part || !this->MayDrawPart || this->ComparesInColors());
   this->IsNew = false;
+  if (!this->DrawsPart) // else the first rank would keep the whole volume
+  {
+    this->Wanted = NoExtent;
+  }
   this->DrawsPart = drawsPart;
   brainshift::Extent all{};
   std::copy_n(this->WholeExtent, 6, all.begin());
   const brainshift::WholeVolume whole = this->Shared->wholeOf(ranks, this->Part, all);
   const bool isFirst = ranks->GetLocalProcessId() == 0;
-  const brainshift::Box part = drawsPart ? this->OwnPart(whole) : brainshift::Box();
+  const brainshift::DrawnPart part = drawsPart ? this->OwnPart(whole) : brainshift::DrawnPart();
   if (!drawsPart)
   {
     this->Wanted = isFirst ? whole.extent : NoExtent;
@@ -199,7 +204,7 @@ void vtkWholeVolumeRepresentation::ShareOut()
   this->IsDrawnElsewhere = !drawsPart && !isFirst;
   this->Cache = volume;
   this->VolumeMapper->SetInputData(volume);
-  this->SetDrawnPart(drawsPart ? part.data() : nullptr);
+  this->SetDrawnPart(drawsPart ? &part : nullptr);
   if (this->IsDrawnElsewhere)
   {
     vtkMath::UninitializeBounds(this->DataBounds);
@@ -213,17 +218,20 @@ void vtkWholeVolumeRepresentation::ShareOut()
 
 // This rank's part of the deformed frame. A rank that lacks voxels of it wants them, and those of
 // the halo around it.
-brainshift::Box vtkWholeVolumeRepresentation::OwnPart(const brainshift::WholeVolume& whole)
+brainshift::DrawnPart vtkWholeVolumeRepresentation::OwnPart(const brainshift::WholeVolume& whole)
 {
   vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
-  const brainshift::Box part = brainshift::rankParts(
-    this->WholeBounds(whole), ranks->GetNumberOfProcesses())[ranks->GetLocalProcessId()];
+  const brainshift::Box bounds = this->WholeBounds(whole);
+  const brainshift::Box part =
+    brainshift::rankParts(bounds, ranks->GetNumberOfProcesses())[ranks->GetLocalProcessId()];
   const brainshift::Extent needed = this->RestExtent(whole, this->Part, part, 0.0);
-  if (!brainshift::holds(this->Wanted, needed) || !brainshift::holds(whole.extent, this->Wanted))
+  // What a large stroke asked for is given back after it was undone.
+  const brainshift::Extent most = this->RestExtent(whole, this->Part, part, 2.0 * this->RankHalo);
+  if (!brainshift::holds(this->Wanted, needed) || !brainshift::holds(most, this->Wanted))
   {
     this->Wanted = this->RestExtent(whole, this->Part, part, this->RankHalo);
   }
-  return part;
+  return { part, brainshift::withoutOuterSides(part, bounds), whole.extent };
 }
 
 // Where tissue can be, the same on each rank.

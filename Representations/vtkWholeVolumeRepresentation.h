@@ -28,6 +28,7 @@ namespace brainshift
 class EvidenceLegend;
 class SharedVolume;
 class WindowText;
+struct DrawnPart;
 struct WholeVolume;
 }
 
@@ -90,11 +91,11 @@ private:
   virtual std::array<int, 6> RestExtent(
     const brainshift::WholeVolume&, vtkImageData*, const std::array<double, 6>&, double haloMm);
   /** Draws only a part of the deformed frame. Null: all of it. */
-  virtual void SetDrawnPart(const double*) {}
+  virtual void SetDrawnPart(const brainshift::DrawnPart*) {}
 
   void ChooseWhoDraws(vtkPVRenderView* view);
   void ShareOut();
-  std::array<double, 6> OwnPart(const brainshift::WholeVolume& whole);
+  brainshift::DrawnPart OwnPart(const brainshift::WholeVolume& whole);
   std::array<double, 6> WholeBounds(const brainshift::WholeVolume& whole);
   void WidenBounds();
   bool IsAloneIn(vtkPVRenderView* view) const;

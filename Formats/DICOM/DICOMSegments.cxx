@@ -185,6 +185,13 @@ double stepOf(const DICOMFrame& first, const std::vector<double>& placesMm, DICO
         roundedText(leastMm), " mm apart and slices of ", roundedText(step),
         " mm (SpacingBetweenSlices or SliceThickness), which count: those between are empty"));
     }
+    if (!(between > 0.0) && first.knowsStep && step > 1.5 * first.sliceStepMm)
+    {
+      grid.warnings.push_back(
+        joined("has frames of segments ", roundedText(step), " mm apart, a SliceThickness of ",
+          roundedText(first.sliceStepMm), " mm and no SpacingBetweenSlices; each counts as ",
+          roundedText(step), " mm thick, too much if slices between them are empty"));
+    }
     if (misfit * step > LargestUnreportedShiftMm)
     {
       grid.warnings.push_back(joined("has frames of segments up to ", roundedText(misfit * step),

@@ -47,6 +47,19 @@ std::string readBeginning(const std::string& fileName, std::size_t bytes)
   return text;
 }
 
+std::string fileBytes(const std::string& fileName, std::uint64_t offset, std::uint64_t count)
+{
+  std::ifstream stream(fileName, std::ios::binary);
+  std::string bytes(count, '\0');
+  if (!stream.seekg(static_cast<std::streamoff>(offset)) ||
+    !stream.read(bytes.data(), static_cast<std::streamsize>(count)))
+  {
+    throw Problem("cannot be read: no " + std::to_string(count) + " bytes from byte " +
+      std::to_string(offset) + " on");
+  }
+  return bytes;
+}
+
 std::string withoutMark(std::string text)
 {
   constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";

@@ -8,6 +8,8 @@
 #include "Common/Problem.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 
 namespace brainshift
 {
@@ -19,6 +21,9 @@ bool isPlainFile(const std::string& fileName);
 
 /** The first bytes of a plain file; fewer if it is shorter, none if it cannot be read. */
 std::string readBeginning(const std::string& fileName, std::size_t bytes);
+
+/** Bytes of a file that must be there, or throws the end of a sentence. */
+std::string fileBytes(const std::string& fileName, std::uint64_t offset, std::uint64_t count);
 
 /** Text without the mark of UTF-8 at its beginning. */
 std::string withoutMark(std::string text);

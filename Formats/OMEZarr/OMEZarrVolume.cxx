@@ -3,6 +3,7 @@
 /// Volumes in OME-Zarr stores: one resolution at a time, and of it only the chunks that the extent
 /// needs.
 #include "Common/HostMemory.h"
+#include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 #include "Formats/OMEZarr/OMEImage.h"
 #include "Formats/OMEZarr/ZarrBox.h"
@@ -25,6 +26,7 @@ namespace
 {
 constexpr double BytesInMiB = 1048576.0;
 constexpr std::int64_t MostTimes = 65536; // each takes memory
+constexpr std::int64_t MostChannels = 1024;
 
 std::string sizeOf(double bytes)
 {
@@ -73,6 +75,7 @@ public:
     header.warnings.insert(
       header.warnings.end(), this->Image.warnings.begin(), this->Image.warnings.end());
     this->place(level, header);
+    this->warnOfLevel(level, header);
     this->takeTimes(level, header);
     header.labels = this->Image.labels;
     header.isLabelMap = this->Image.isLabelMap;
@@ -181,6 +184,11 @@ private:
       throw Problem("has the channels 0 to " + std::to_string(channels - 1) + "; Channel is " +
         std::to_string(this->Pyramid.channel));
     }
+    if (this->Pyramid.channel < 0 && channels > MostChannels)
+    {
+      throw Problem("has " + std::to_string(channels) + " channels, of which up to " +
+        std::to_string(MostChannels) + " are read as components; choose one by Channel");
+    }
     return this->Pyramid.channel < 0 ? channels : 1;
   }
 
@@ -248,6 +256,34 @@ private:
     }
     header.knowsSides = false;
     header.warnings.emplace_back(UnknownSidesWarning);
+  }
+
+  // What may be wrong with a level without a fault in its metadata.
+  void warnOfLevel(const OMELevel& level, VolumeHeader& header) const
+  {
+    const std::string missing = missingChunk(*this->Store, level.array);
+    if (!missing.empty())
+    {
+      header.warnings.push_back("seems to have no chunk of level " + std::to_string(this->Level) +
+        ", such as '" + missing + "'; where one is missing, the fill value is shown");
+    }
+    const OMELevel& finest = this->Image.levels.front();
+    double mostMm = 0.0;
+    for (const int axis : this->Image.axes.space)
+    {
+      const double step =
+        std::abs(at(level.scale, axis, 1.0)) - std::abs(at(finest.scale, axis, 1.0));
+      if (at(level.translation, axis, 0.0) == at(finest.translation, axis, 0.0) && step > 0.0)
+      {
+        mostMm = std::max(mostMm, 0.5 * step * at(this->Image.axes.units, axis, 1.0));
+      }
+    }
+    if (mostMm > 0.0)
+    {
+      header.warnings.push_back("has no translation of level " + std::to_string(this->Level) +
+        " against the finest; if it was made by averages, it is shown up to " +
+        roundedText(mostMm) + " mm from its place; level 0 is where it belongs");
+    }
   }
 
   void takeTimes(const OMELevel& level, VolumeHeader& header) const

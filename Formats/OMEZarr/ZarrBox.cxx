@@ -359,6 +359,23 @@ private:
 };
 }
 
+std::string missingChunk(const ZarrStore& store, const ZarrArray& array)
+{
+  constexpr double MostLooks = 64.0;
+  const ZarrBox all{ Index(array.shape.size(), 0), array.shape, nullptr, {} };
+  const Tiles files(all, array.hasShards() ? array.shards.shape : array.chunk);
+  const double looks = std::min(MostLooks, files.number());
+  for (int i = 0; i < static_cast<int>(looks); ++i)
+  {
+    const auto file = static_cast<std::int64_t>((i + 0.5) / looks * files.number());
+    if (store.size(keyOf(array, files.at(file))))
+    {
+      return {};
+    }
+  }
+  return keyOf(array, files.first);
+}
+
 bool readZarrBox(const ZarrStore& store, const ZarrArray& array, const ZarrBox& box,
   const std::function<bool(double)>& progress)
 {

@@ -19,6 +19,10 @@ struct ZarrBox
   std::vector<std::int64_t> steps; ///< numbers from one index to the next, there
 };
 
+/** The key of the first chunk (or shard) if up to 64, from all over the array, are not there; empty
+ * if one is. */
+std::string missingChunk(const ZarrStore& store, const ZarrArray& array);
+
 /**
  * Fills a box. A chunk that is not there has the fill value. One that is cut off or damaged throws
  * the end of a sentence that names it. Returns false if `progress`, which receives the fraction

@@ -3,8 +3,8 @@
 
 #include "Common/Bytes.h"
 #include "Common/Problem.h"
+#include "Formats/Files/Inflate.h"
 #include "Formats/Files/Text.h"
-#include "Formats/OMEZarr/Inflate.h"
 
 #include "vtk_lz4.h"
 

@@ -4,11 +4,11 @@
 #include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Files/ZipFile.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 
 namespace fs = std::filesystem;
 
@@ -56,6 +56,52 @@ private:
   std::string pathOf(const std::string& key) const { return this->Folder + "/" + key; }
 };
 
+// From the folder in a zip file on that holds the outermost metadata.
+class ZipStore : public ZarrStore
+{
+public:
+  explicit ZipStore(const std::string& fileName)
+    : File(fileName)
+  {
+    this->findTop();
+  }
+
+  std::optional<std::uint64_t> size(const std::string& key) const override
+  {
+    return this->File.size(this->Top + key);
+  }
+
+  std::string part(const std::string& key, std::uint64_t offset, std::uint64_t count) const override
+  {
+    return this->File.part(this->Top + key, offset, count);
+  }
+
+private:
+  ZipFile File;
+  std::string Top; // before the keys
+
+  // The first by the alphabet of several that are as far out.
+  void findTop()
+  {
+    std::optional<std::string> top;
+    std::ptrdiff_t least = 0;
+    for (const std::string& key : this->File.names())
+    {
+      const std::size_t slash = key.rfind('/');
+      const std::string name = key.substr(slash == std::string::npos ? 0 : slash + 1);
+      const std::string folder = key.substr(0, key.size() - name.size());
+      const std::ptrdiff_t depth = std::count(folder.begin(), folder.end(), '/');
+      const bool isMetadata = name == "zarr.json" || name == ".zattrs" || name == ".zgroup";
+      if (isMetadata && (!top || depth < least || (depth == least && folder < *top)))
+      {
+        top = folder;
+        least = depth;
+      }
+    }
+    this->Top = top.value_or("");
+  }
+};
+
 // Empty unless a name is that of a folder, or of metadata in it.
 std::string folderOf(const std::string& fileName)
 {
@@ -99,19 +145,6 @@ std::optional<std::string> ZarrStore::read(const std::string& key, std::uint64_t
   return this->part(key, 0, *size);
 }
 
-std::string fileBytes(const std::string& fileName, std::uint64_t offset, std::uint64_t count)
-{
-  std::ifstream stream(fileName, std::ios::binary);
-  std::string bytes(count, '\0');
-  if (!stream.seekg(static_cast<std::streamoff>(offset)) ||
-    !stream.read(bytes.data(), static_cast<std::streamsize>(count)))
-  {
-    throw Problem("cannot be read: no " + std::to_string(count) + " bytes from byte " +
-      std::to_string(offset) + " on");
-  }
-  return bytes;
-}
-
 std::unique_ptr<ZarrStore> openZarrStore(const std::string& fileName)
 {
   const std::string folder = folderOf(fileName);
@@ -122,7 +155,7 @@ std::unique_ptr<ZarrStore> openZarrStore(const std::string& fileName)
   }
   else if (beginsLikeZip(fileName))
   {
-    store = openZipStore(fileName);
+    store = std::make_unique<ZipStore>(fileName);
   }
   else
   {

@@ -34,12 +34,6 @@ public:
   std::optional<std::string> read(const std::string& key, std::uint64_t limit) const;
 };
 
-/** Bytes of a plain file, or throws the end of a sentence. */
-std::string fileBytes(const std::string& fileName, std::uint64_t offset, std::uint64_t count);
-
-/** The store in a zip file, from the folder in it on that holds the outermost metadata. */
-std::unique_ptr<ZarrStore> openZipStore(const std::string& fileName);
-
 /**
  * The store that a user means by a folder, by a file of metadata in it (zarr.json, .zattrs, .zgroup
  * or .zarray), or by a zip file. Throws the end of a sentence about the name.

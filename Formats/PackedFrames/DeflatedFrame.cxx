@@ -6,6 +6,8 @@
 
 #include "vtk_zlib.h"
 
+#include <limits>
+
 namespace brainshift
 {
 namespace
@@ -14,7 +16,8 @@ namespace
 bool inflateInto(const std::string& packed, std::string& plain)
 {
   z_stream stream{};
-  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK)
+  constexpr std::size_t Most = std::numeric_limits<uInt>::max(); // that zlib counts
+  if (packed.size() > Most || plain.size() > Most || inflateInit2(&stream, -MAX_WBITS) != Z_OK)
   {
     return false;
   }

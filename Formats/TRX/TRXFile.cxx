@@ -11,7 +11,7 @@
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
-#include "Formats/Files/ZipParts.h"
+#include "Formats/Files/ZipFile.h"
 #include "Formats/Surfaces/SurfaceFile.h"
 
 #include "vtk_nlohmannjson.h"
@@ -22,6 +22,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace brainshift
@@ -59,28 +60,22 @@ struct StoredArray
 class Parts
 {
 public:
-  Parts(const TractSource& source, const std::vector<char>& bytes)
-    : Bytes(bytes)
+  explicit Parts(const TractSource& source)
   {
     if (std::filesystem::is_directory(source.fileName))
     {
       this->list(source.fileName);
       return;
     }
-    for (const ZipPart& part : zipPartsOf(bytes))
-    {
-      throwIfAny(
-        this->Packed.emplace(part.name, part).second ? "" : twice("file " + shownWords(part.name)));
-    }
+    this->Packed.emplace(source.fileName);
   }
 
   std::vector<std::string> names() const
   {
     std::vector<std::string> all;
-    all.reserve(this->Packed.size() + this->Paths.size());
-    for (const auto& [name, part] : this->Packed)
+    if (this->Packed)
     {
-      all.push_back(name);
+      all = this->Packed->names();
     }
     for (const auto& [name, path] : this->Paths)
     {
@@ -91,9 +86,14 @@ public:
 
   std::vector<char> read(const std::string& name) const
   {
-    if (const auto part = this->Packed.find(name); part != this->Packed.end())
+    if (const std::optional<std::uint64_t> size =
+          this->Packed ? this->Packed->size(name) : std::nullopt)
     {
-      return unpackedPart(this->Bytes, part->second);
+      requireMemoryFor(*size);
+      std::string bytes;
+      withBeginning("has the file " + shownWords(name) + " that ",
+        [&] { bytes = this->Packed->part(name, 0, *size); });
+      return { bytes.begin(), bytes.end() };
     }
     const auto path = this->Paths.find(name);
     if (path == this->Paths.end())
@@ -104,13 +104,18 @@ public:
     std::error_code error;
     const auto size = std::filesystem::file_size(path->second, error);
     throwIfAny(error ? "has the file " + shownWords(name) + " of an unknown size" : "");
-    withBeginning(
-      "cannot be read: ", [&] { requireHostMemory("its part", static_cast<double>(size)); });
+    requireMemoryFor(size);
     const std::string text = readBeginning(path->second, static_cast<std::size_t>(size));
     return { text.begin(), text.end() };
   }
 
 private:
+  static void requireMemoryFor(std::uintmax_t bytes)
+  {
+    withBeginning(
+      "cannot be read: ", [&] { requireHostMemory("its part", static_cast<double>(bytes)); });
+  }
+
   void list(const std::string& folder)
   {
     std::error_code error;
@@ -118,10 +123,7 @@ private:
     for (std::filesystem::recursive_directory_iterator file(folder, error), end; file != end;
       file.increment(error))
     {
-      if (error || this->Paths.size() > MostFiles)
-      {
-        throw Problem("is a folder that cannot be listed, or of more than 65536 files");
-      }
+      requireListed(error, this->Paths.size());
       if (file.depth() >= Deepest)
       {
         file.disable_recursion_pending();
@@ -132,10 +134,18 @@ private:
         this->Paths[path.lexically_relative(folder).generic_string()] = path.string();
       }
     }
+    requireListed(error, this->Paths.size()); // an error ends the loop
   }
 
-  const std::vector<char>& Bytes;
-  std::map<std::string, ZipPart> Packed;
+  static void requireListed(const std::error_code& error, std::size_t files)
+  {
+    if (error || files > MostFiles)
+    {
+      throw Problem("is a folder that cannot be listed, or of more than 65536 files");
+    }
+  }
+
+  std::optional<ZipFile> Packed;
   std::map<std::string, std::string> Paths;
 };
 
@@ -448,7 +458,8 @@ bool isTRXFile(const std::string& fileName)
 void readTRX(std::vector<char>& bytes, const TractSource& source, const FractionDone& fractionDone,
   Tracts& tracts)
 {
-  const Parts parts(source, bytes);
+  bytes = {}; // the file is read entry by entry
+  const Parts parts(source);
   const Announced announced = readHeader(parts);
   std::vector<StoredArray> arrays;
   const std::vector<std::string> names = parts.names();
@@ -500,19 +511,43 @@ void addNumber(std::vector<char>& bytes, T number)
   bytes.insert(bytes.end(), stored, stored + sizeof(T));
 }
 
-NamedBytes partOf(const std::string& folder, const NamedNumbers& numbers)
+// Gives arrays of a folder names of their own in the file, and notes those that are others.
+class FileNames
+{
+public:
+  FileNames(const std::string& prefix, TractNotes& notes)
+    : Prefix(prefix)
+    , Notes(notes)
+  {
+  }
+
+  // `rest`: what follows the name, components and type.
+  std::string of(const std::string& name, const std::string& rest)
+  {
+    const std::string stored = this->Names.own(fileNameOf(name));
+    if (stored != name)
+    {
+      this->Notes.push_back("calls the array " + shownWords(name) + " " + shownWords(stored));
+    }
+    return this->Prefix + stored + rest;
+  }
+
+private:
+  std::string Prefix;
+  TractNotes& Notes;
+  OwnNames Names;
+};
+
+NamedBytes partOf(FileNames& names, const NamedNumbers& numbers)
 {
   const std::string components =
     numbers.components > 1 ? "." + std::to_string(numbers.components) : "";
-  return { folder + "/" + fileNameOf(numbers.name) + components + "." + nameOf(numbers.type),
-    numbers.bytes };
+  return { names.of(numbers.name, components + "." + nameOf(numbers.type)), numbers.bytes };
 }
 
-NamedBytes groupOf(const NamedNumbers& numbers)
+NamedBytes groupOf(FileNames& names, const NamedNumbers& numbers)
 {
-  NamedBytes group{
-    std::string(GroupPrefix) + fileNameOf(numbers.name.substr(GroupPrefix.size())) + ".uint32", {}
-  };
+  NamedBytes group{ names.of(numbers.name.substr(GroupPrefix.size()), ".uint32"), {} };
   for (std::size_t i = 0; i < numbers.bytes.size(); ++i)
   {
     if (numbers.bytes[i] != 0)
@@ -539,7 +574,7 @@ std::string headerOf(const Tracts& tracts, const TractBox& box)
 }
 
 void writeTRX(
-  const std::string& fileName, const Tracts& tracts, const TractBox& box, TractNotes& /*notes*/)
+  const std::string& fileName, const Tracts& tracts, const TractBox& box, TractNotes& notes)
 {
   throwIfAny(
     thisMachineIsBigEndian() ? "such files are little-endian, and this machine is not" : "");
@@ -553,15 +588,18 @@ void writeTRX(
   {
     addNumber(parts.back().bytes, static_cast<std::uint64_t>(first));
   }
+  FileNames ofPoints("dpv/", notes);
+  FileNames ofStreamlines("dps/", notes);
+  FileNames ofGroups(std::string(GroupPrefix), notes);
   for (const NamedNumbers& numbers : tracts.ofPoints)
   {
-    parts.push_back(partOf("dpv", numbers));
+    parts.push_back(partOf(ofPoints, numbers));
   }
   for (const NamedNumbers& numbers : tracts.ofStreamlines)
   {
     const bool isGroup = numbers.name.rfind(GroupPrefix, 0) == 0 &&
       numbers.type == NumberType::UInt8 && numbers.components == 1;
-    parts.push_back(isGroup ? groupOf(numbers) : partOf("dps", numbers));
+    parts.push_back(isGroup ? groupOf(ofGroups, numbers) : partOf(ofStreamlines, numbers));
   }
   writeWholeStream(fileName, [&](std::ostream& file) { writeZip(parts, file); });
 }

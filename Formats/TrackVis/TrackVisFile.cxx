@@ -507,6 +507,11 @@ std::size_t putNames(
     total += list[i].components;
   }
   list.resize(std::min<std::size_t>(list.size(), MostNames));
+  if (total > static_cast<std::size_t>(std::numeric_limits<std::int16_t>::max()))
+  {
+    throw Problem("has " + std::to_string(total) +
+      " numbers in the arrays of a kind; a file of TrackVis can have 32767. Write .trx");
+  }
   return total;
 }
 
@@ -558,6 +563,12 @@ NewHeader headerOf(const TractBox& box, const Tracts& tracts)
       440 + 4 * static_cast<std::size_t>(i), static_cast<float>(box.worldFromVoxel[i % 4][i / 4]));
   }
   header.putText(948, lettersOf(box.worldFromVoxel, box.dimensions));
+  if (std::max(tracts.firsts.size(), tracts.points.size()) >
+    static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+  {
+    throw Problem("has " + std::to_string(tracts.points.size()) +
+      " points; a file of TrackVis can count 2147483647. Write .trx");
+  }
   header.put(988, static_cast<std::int32_t>(tracts.firsts.size() - 1));
   header.put(992, std::int32_t(2));
   header.put(996, static_cast<std::int32_t>(HeaderBytes));

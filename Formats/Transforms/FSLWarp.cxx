@@ -136,7 +136,8 @@ Warp readWarp(const std::string& fileName)
     throw Problem("has a unit of length that is not mm (xyzt_units); a map must be in mm");
   }
   warp.knowsSides = header.knowsSides;
-  if (vtkNIFTIImageHeader* stored = headerReader(fileName)->GetNIFTIHeader())
+  const auto reader = headerReader(fileName); // which owns the header
+  if (vtkNIFTIImageHeader* stored = reader->GetNIFTIHeader())
   {
     warp.intentNumbers =
       glm::dvec3(stored->GetIntentP1(), stored->GetIntentP2(), stored->GetIntentP3());
@@ -351,7 +352,8 @@ std::optional<NIFTIWarpKind> niftiWarpOf(const std::string& fileName, bool isOfS
     return {};
   }
   requireNIFTIFile(fileName);
-  vtkNIFTIImageHeader* header = headerReader(fileName)->GetNIFTIHeader();
+  const auto reader = headerReader(fileName); // which owns the header
+  vtkNIFTIImageHeader* header = reader->GetNIFTIHeader();
   const int intent = header ? header->GetIntentCode() : None;
   if (isOfSPM && intent != None && intent != Vector)
   {

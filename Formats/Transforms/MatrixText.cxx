@@ -285,6 +285,10 @@ bool addLTAText(const std::string& text, const NamedImages& images, PointTransfo
     }
     dstFromSrc = dst.rasFromVoxel * dstFromSrc * glm::inverse(src.rasFromVoxel);
   }
+  if (lta.isOfNiTransforms) // its matrix leads from dst, the moving image, to src
+  {
+    dstFromSrc = glm::inverse(dstFromSrc);
+  }
   bool isSrcFixed = lta.isOfNiTransforms;
   bool isSrcMoving = !isSrcFixed;
   choose(lta, "fixed", images.fixed, isSrcFixed);
@@ -296,7 +300,7 @@ bool addLTAText(const std::string& text, const NamedImages& images, PointTransfo
       " and the moving image " + images.moving + "; name the two that it was made of");
   }
   transform.links.emplace_back(linkOf(isSrcMoving ? glm::inverse(dstFromSrc) : dstFromSrc));
-  return isSrcMoving;
+  return isSrcMoving != lta.isOfNiTransforms;
 }
 
 namespace

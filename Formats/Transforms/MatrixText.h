@@ -25,9 +25,9 @@ bool isLTAText(const std::string& text);
 
 /**
  * Adds the map of an LTA, in RAS, from the fixed to the moving image, or throws the end of a
- * sentence. The moving image is src, unless NiTransforms wrote the file, which has the fixed one
- * there, or the images that are named have the geometry of the other end. Returns whether src is
- * the moving image, so that the map was turned round.
+ * sentence. The matrix leads from src, the moving image, to dst. NiTransforms exchanges the names
+ * of the ends, and images that are named may have the geometry of the other end. Returns whether
+ * the map was inverted.
  */
 bool addLTAText(const std::string& text, const NamedImages& images, PointTransform& transform);
 

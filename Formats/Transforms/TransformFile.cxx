@@ -77,7 +77,7 @@ glm::dmat4 matrixOf(const std::vector<double>& rows)
 constexpr const char* OfITK = "a transform of ITK, as Slicer and ANTs write it, too";
 constexpr const char* AsStored = "It takes points of the fixed image to the moving one, as stored.";
 constexpr const char* Turned =
-  "It takes points of the moving image to the fixed one; BrainShift turns it round.";
+  "It takes points of the moving image to the fixed one; BrainShift inverts it.";
 
 // Remembers what a file says of its direction.
 void tell(const std::string& what, const char* leads, PointTransform& transform)

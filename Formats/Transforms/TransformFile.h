@@ -17,7 +17,7 @@
 ///
 /// The content decides, not the name. Between NiftyReg and FSL nothing in the file decides, so the
 /// caller must name the program. All map points of the fixed image to the moving one, but for FSL's
-/// matrices, .lta and .xfm, which are turned round.
+/// matrices, .lta and .xfm, which are inverted.
 #ifndef BrainShift_TransformFile_h
 #define BrainShift_TransformFile_h
 

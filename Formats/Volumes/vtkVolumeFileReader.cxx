@@ -454,18 +454,11 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
     this->Stored->read(
       volume, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()), progress, shown);
   });
-  vtkDataArray* scalars = shown->GetPointData()->GetScalars();
-  if (!scalars)
+  if (!shown->GetPointData()->GetScalars())
   {
     return 0; // stopped
   }
-  scalars->SetName(brainshift::ScalarsOfVolumes);
   attachMeaning(shown, this->Stored->header());
-  brainshift::attachLabels(shown, this->Stored->header().labels);
-  brainshift::markLabelMap(shown, this->Stored->header().isLabelMap);
-  brainshift::nameWorldAxes(shown,
-    this->Stored->header().knowsSides ? brainshift::WorldAxes::RAS
-                                      : brainshift::WorldAxes::Unknown);
   attachFacts(this->Stored->header(), shown);
   this->rememberLast(information);
   return 1;

@@ -673,7 +673,7 @@ class Case(Steps, Moments, TimedTraces, Resections):
             simple.Delete(baked)
         save_field(self.bent, f"{name}_field.nii.gz", world=world_axes(self.volume) or "RAS")
         files = [f"{name}_bent.nii.gz", f"{name}_field.nii.gz"]
-        if self.resection is not None:
+        if self.known_resection() is not None:
             for frame in ("rest", "deformed"):
                 files.append(f"{name}_tumour_{frame}.nii.gz")
                 self.resection.save(files[-1], frame, world_axes(self.volume))

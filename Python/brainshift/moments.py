@@ -184,6 +184,8 @@ class Moments:
             rest[0]._gather(rest)
             if rest[0].part("moments") is not None:
                 group.SMProxy.RemoveAnnotation(self._key("moments"))
+            for case in rest if self.traces_by_time else ():
+                case._wire()  # the points of the moment are those of the one before it
 
     def _wire_moments(self):
         """Makes the time steps follow the case: another volume is no moment of this surgery."""

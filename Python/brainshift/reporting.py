@@ -445,6 +445,7 @@ def report(case, file, title="Case report", names=False):
     """
     if case.bent is None:
         raise ValueError("the case has no volume; a report needs one")
+    case.known_resection()
     with scenes.nothing_else_changes():
         sections = list(_sections(case, names))
     now = datetime.datetime.now().astimezone().strftime("%Y-%m-%d %H:%M %Z")

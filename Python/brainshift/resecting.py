@@ -341,6 +341,12 @@ class Resections:
         return self.resection
 
     @kept
+    def known_resection(self):
+        """`resection`, measured again if a state has kept its line alone; None if there is none."""
+        if self.resection is None and self._left:
+            self.resect()
+        return self.resection
+
     def show_resection(self, view=None, look=None):
         """Show the bent volume after its resection in a render view, in place of the whole one.
 

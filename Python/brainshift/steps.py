@@ -25,6 +25,10 @@ _TRUST = {"good": "Its checks found no fault.", "doubtful": "The result is doubt
           "failed": "The result failed its checks.", "unchecked": "The result was not checked."}
 
 
+def _cost(value):
+    return "not known" if value is None else f"{value:.3f}"
+
+
 class Steps:
     """The steps of a `Case`, which derives from this."""
 
@@ -165,13 +169,18 @@ class Steps:
         by = refined_by(self.bent.Lattice)
         if by:
             found += (f"; {'finished' if by['finished'] else 'stopped'} after {by['steps']} steps, "
-                      f"cost {by['before']:.3f} before, {by['cost']:.3f} now (0: the volumes "
+                      f"cost {_cost(by['before'])} before, {_cost(by['cost'])} now (0: the volumes "
                       f"match). {_TRUST[by['trust']]} {by['warning']}").rstrip()
         return "", found
 
     def doubtful(self):
         """The names of the steps that may have found something wrong: what they found says why."""
         names = {"Measure", "Fit"} if self._cavity_doubt() else set()
+        fit = self.fit_source()
+        if fit is not None and reason_of(fit):
+            names.add("Fit")
+        if self.lacks_traced() or self.of_no_moment():
+            names.add("Measure")
         grids = self.part("at_rest")
         if grids is not None and grids.GetPropertyValue("Warning") and not self.fits_landmarks():
             names.add("Fit")

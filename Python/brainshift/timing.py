@@ -34,9 +34,9 @@ class TimedTraces:
             raise ValueError(f"traces_by_time is {unit!r}; it must be one of {', '.join(UNITS)}, "
                              "or empty")
         if unit:
-            self._require_stamps(self.traces)
-            self._refuse_other_traces()
-        self._share("traces_by_time", unit)
+            self._share("traces_by_time", unit, self._only_traces())
+        else:
+            self._share("traces_by_time", unit, self.traces)
 
     @property
     def trace_start(self):
@@ -48,7 +48,7 @@ class TimedTraces:
         stamp = float(stamp)
         if not math.isfinite(stamp):
             raise ValueError(f"trace_start is {stamp}; it must be a finite number")
-        self._share("trace_start", stamp)
+        self._share("trace_start", stamp, self.traces)
 
     @property
     def traced(self):
@@ -82,7 +82,10 @@ class TimedTraces:
         """What is missing if no point was traced at this moment; else an empty text."""
         if self.traces is None or self.traced is not None:
             return ""
-        low, high = _stamps_of(self.traces).GetRange(0)
+        stamps = _stamps_of(self.traces)
+        if stamps is None:
+            return f"time stamps of the traces, the point array {_STAMPS}"
+        low, high = stamps.GetRange(0)
         return (f"traced points of this moment, which goes from {self._stamp():.10g} "
                 f"{self.traces_by_time} on: the time stamps are {low:.10g} to {high:.10g} "
                 f"{self.traces_by_time}; trace_start is the stamp at minute 0")
@@ -93,27 +96,32 @@ class TimedTraces:
         if self.part("timed") is None:
             return 0
         counts = []
-        for source in [self.traces, *(case.part("timed") for case in self.moments)]:
+        parts = [case.part("timed") for case in self.moments]
+        for source in [self.traces, *(part for part in parts if part is not None)]:
             source.UpdatePipeline()
             counts.append(source.GetDataInformation().GetNumberOfPoints())
         return counts[0] - sum(counts[1:])
 
-    def _refuse_other_traces(self):
-        for case in self.moments:
-            if case.traces is not None and self.traces is not None and case.traces != self.traces:
+    def _only_traces(self):
+        """The traces of all moments; None if none has any. Raises `ValueError` if two moments have
+        different ones, or they have no time stamps."""
+        given = [case for case in self.moments if case.traces is not None]
+        for case in given:
+            if case.traces != given[0].traces:
                 name = repr(case.moment) if case.moment else "without a name"
-                raise ValueError(f"the moment {name} has traces of its "
-                                 f"own, {stem(case.traces)}: take them away first, for one source "
-                                 "has the traces of all moments by time")
+                raise ValueError(f"the moment {name} has traces of its own, {stem(case.traces)}: "
+                                 "take them away first, for one source has the traces of all "
+                                 "moments by time")
+        self._require_stamps(given[0].traces if given else None)
+        return given[0].traces if given else None
 
     @kept
-    def _share(self, name, value):
+    def _share(self, name, value, traces):
         """Keeps a setting of all moments, and their traces if they go by time."""
         cases = self.moments
         for case in cases:
             case._keep(name, value)
-        traces = self.traces if self.traces_by_time else None
-        for case in cases if traces is not None else ():
+        for case in cases if self.traces_by_time and traces is not None else ():
             case._take("traces", traces)
         for case in cases:
             case._wire()
@@ -125,14 +133,11 @@ class TimedTraces:
     def _wire_times(self):
         """Makes the points of the moment agree with its time and that of the next one."""
         traces = self.traces if self.traces_by_time else None
-        information = traces.GetDataInformation() if traces else None
-        is_vertices = traces and information.GetNumberOfCells() == information.GetNumberOfPoints()
         name = f"{stem(traces)}{f', {self.moment}' if self.moment else ''}" if traces else ""
-        cloud = self._made("cloud", "ConvertToPointCloud", f"{name}, points",
-                           Input=None if is_vertices else traces)
+        cloud = self._made("cloud", "ConvertToPointCloud", f"{name}, points", Input=traces)
         if cloud is not None:  # a cell of several points goes through a threshold whole or not
             self._set(cloud, {"CellGenerationMode": "Vertex cells"})
-        timed = self._made("timed", "Threshold", name, Input=traces and (cloud or traces))
+        timed = self._made("timed", "Threshold", name, Input=cloud)
         if timed is None:
             return
         later = [case for case in self.moments if case.minutes > self.minutes]
@@ -150,4 +155,5 @@ class TimedTraces:
 
 def _stamps_of(source):
     """What is known of the time stamps of points; None if they have none."""
+    source.UpdatePipeline()  # after a state was loaded nothing is known yet
     return source.PointData.GetArray(_STAMPS)

@@ -7,6 +7,8 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 class vtkTextureObject;
@@ -141,6 +143,8 @@ void setSkippingUniforms(Program& program, const SceneSkipping& skipping, vtkTex
   program.set("brickOfTextureZero", brickOfTextureZero(skipping));
 }
 
+constexpr int PartSides = 6; // of a box
+
 void setCutUniforms(Program& program, const SceneCuts& cuts)
 {
   program.set("spaceLow", glm::vec3(cuts.spaceLow));
@@ -151,12 +155,10 @@ void setCutUniforms(Program& program, const SceneCuts& cuts)
   {
     program.get()->SetUniform4fv("clipPlanes", planes, cuts.clipPlanes.data());
   }
-  const int sides = static_cast<int>(cuts.partPlanes.size() / 4);
-  program.set("partCount", sides);
-  if (sides > 0)
-  {
-    program.get()->SetUniform4fv("partPlanes", sides, cuts.partPlanes.data());
-  }
+  std::array<float, 4 * PartSides> part{};
+  std::copy(cuts.partPlanes.begin(), cuts.partPlanes.end(), part.begin());
+  program.set("partCount", static_cast<int>(cuts.partPlanes.size() / 4));
+  program.get()->SetUniform4fv("partPlanes", PartSides, part.data());
   if (cuts.regions)
   {
     program.set("regionLow", glm::vec3(cuts.regionLow));

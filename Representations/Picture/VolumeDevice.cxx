@@ -154,6 +154,13 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
   }
   scene.cuts = cutsOf(request.mapper, tissue.values, scene.frame, scene.field);
   scene.cuts.partPlanes = partPlanesOf(request.part, scene.frame.worldFromTexture);
+  if (!request.part.empty() &&
+    !deformation.deformed) // samples count from the same box on each rank
+  {
+    const ValueLayout& layout = tissue.values.layout;
+    scene.cuts.spaceLow = request.wholeLow * layout.textureFromGrid + layout.textureOfGridZero;
+    scene.cuts.spaceHigh = request.wholeHigh * layout.textureFromGrid + layout.textureOfGridZero;
+  }
   scene.blending = blendingFor(request, tissue, this->Tissue.Textures, scene.frame);
   return true;
 }

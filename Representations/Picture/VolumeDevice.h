@@ -28,8 +28,10 @@ struct VolumeRequest
   bool showsEvidence = false;
   Resection resection;
   double memoryLimitMiB = 0.0; ///< 0: all that the driver gives.
-  std::vector<double> part;    ///< Bounds (mm) of the deformed frame to draw; empty: all of it.
-  PictureWish wish;            ///< Position and size are filled in by draw.
+  std::vector<double> part;    ///< Between these bounds (mm) of the deformed frame; empty: all.
+  glm::dvec3 wholeLow{ 0.0 };  ///< With a part: the whole volume's box, in the grid of its voxels.
+  glm::dvec3 wholeHigh{ 0.0 };
+  PictureWish wish; ///< Position and size are filled in by draw.
 };
 
 /// Textures, programs and images of one window.

@@ -121,6 +121,18 @@ std::vector<Box> rankParts(const Box& whole, int ranks)
   return parts;
 }
 
+Box withoutOuterSides(const Box& part, const Box& whole)
+{
+  Box open = part;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double side = whole[2 * axis + 1] - whole[2 * axis];
+    open[2 * axis] -= part[2 * axis] <= whole[2 * axis] ? side : 0.0;
+    open[2 * axis + 1] += part[2 * axis + 1] >= whole[2 * axis + 1] ? side : 0.0;
+  }
+  return open;
+}
+
 Extent restExtent(const WholeVolume& volume, const Lattice* lattice, const Box& part, double haloMm)
 {
   Range rest = inGrid(volume.grid, part);

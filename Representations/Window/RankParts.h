@@ -30,11 +30,23 @@ struct WholeVolume
   Extent extent{ 0, -1, 0, -1, 0, -1 };
 };
 
+/// What one rank draws of the deformed frame.
+struct DrawnPart
+{
+  Box bounds{};   ///< mm
+  Box cut{};      ///< mm: between these sides, see withoutOuterSides.
+  Extent whole{}; ///< of the volume of which the rank has a part
+};
+
 /**
  * Cuts a box into one for each rank. Each cut goes across the longest side, and divides it as it
  * divides the ranks.
  */
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> rankParts(const Box& whole, int ranks);
+
+/** A part without those of its sides that are sides of the whole: they are far outside. Rays go to
+ * their ends there. */
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT Box withoutOuterSides(const Box& part, const Box& whole);
 
 /**
  * Where the tissue rests that can come into a part of the deformed frame: an extent within that of

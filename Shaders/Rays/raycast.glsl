@@ -50,7 +50,8 @@ vec2 samplesInPart(Ray ray, float first, vec2 samples)
     float number = evenBelow(ceil((-height / slope - first) / stepMm));
     samples.x = slope > 0.0 ? max(samples.x, number) : samples.x;
     samples.y = slope < 0.0 ? min(samples.y, number) : samples.y;
-    samples.y = slope == 0.0 && height < 0.0 ? 0.0 : samples.y;
+    bool isOutside = height < 0.0 || (height == 0.0 && i % 2 == 1); // a border belongs to one part
+    samples.y = slope == 0.0 && isOutside ? 0.0 : samples.y;
   }
   return samples;
 }

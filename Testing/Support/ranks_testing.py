@@ -147,9 +147,21 @@ def answer_parts(found):
     view.CameraParallelProjection = 0
     display.BlendMode = 1  # maximum: the first rank draws alone
     found["large maximum"] = picture(view)
+    view.CameraParallelScale = 60
+    found["large maximum, smaller"] = picture(view)
+    found["large maximum picks"] = numpy.array(
+        [brainshift.pick(display, view, *pixel) or NOWHERE for pixel in PIXELS])
     display.BlendMode = 0
+    picture(view)
+    found["bytes again"] = numpy.array([brainshift.gpu(display)["gpuScalarBytes"]])
     view.CameraPosition, view.CameraFocalPoint = [-20, 8, 15], [30, -9, 2]
     found["large from within"] = picture(view)
+    plain = view_along((0, 0, -1), MIDDLE, 150.0, size=SIZE + 1)  # without a lattice, along an axis
+    display = show_volume(source, plain, "Deformed Volume", COLORS, OPACITIES, array="RTData")
+    display.SampleDistance, display.AmbientOcclusion = 4.0, 0
+    found["large plain"] = picture(plain)
+    plain.CameraParallelProjection = 1
+    found["large plain, parallel"] = picture(plain)
 
 
 def answer_comparison(found):

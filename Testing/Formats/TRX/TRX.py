@@ -235,13 +235,14 @@ def test_damaged_trx_files_end_in_one_sentence():
         struct.pack_into(kind, changed, place, number)
         return bytes(changed)
     entry = good.index(b"PK\1\2")
-    for content, words in ((good[:-30], "no end record"), (good[:200], "no end record"),
+    for content, words in ((good[:-30], "no directory at its end"),
+                           (good[:200], "no directory at its end"),
                            (put(entry + 8, "<H", 1), "encrypted"),
-                           (put(entry + 10, "<H", 12), "packed by method 12"),
+                           (put(entry + 10, "<H", 12), "packed by the method 12"),
                            (put(entry + 24, "<I", 2 ** 31), "which cannot be"),
-                           (put(entry + 16, "<I", 1), "its CRC is wrong"),
-                           (put(entry + 42, "<I", 7), "not where it must be"),
-                           (put(entry, "<I", 0), "its entry 0")):
+                           (put(entry + 16, "<I", 1), "its checksum in the zip file is another"),
+                           (put(entry + 42, "<I", 7), "not where the zip file says"),
+                           (put(entry, "<I", 0), "something else than entries")):
         with open(scratch("bad.trx"), "wb") as file:
             file.write(content)
         assert_says(refusal(scratch("bad.trx")), words)

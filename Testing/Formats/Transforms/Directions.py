@@ -35,7 +35,7 @@ def test_files_that_are_turned_round_say_so():
                               ("turned.xfm", xfm, "from its source, the moving image")):
         found = brainshift.direction(write(name, text), points=[(0.0, 0.0, 0.0)])
         assert numpy.allclose(found.moving, [(-3.0, 8.0, -5.5)]), found.moving
-        assert words in str(found) and "turns it round" in str(found), str(found)
+        assert words in str(found) and "inverts it" in str(found), str(found)
 
 
 def test_both_fields_of_a_deformation_lead_the_same_way():

@@ -70,11 +70,14 @@ def test_lta_leads_as_its_twin_in_itk():
     assert away < NEAR and largest(one.map(POINTS), POINTS) > 1.0
 
 
-def test_lta_of_nitransforms_begins_at_the_fixed_image():
-    right = brainshift.read_transform(real("nitransforms", "affine-RAS.itk.tfm"))
+def test_lta_of_nitransforms_leads_from_the_moving_image_as_freesurfer_does():
+    """NiTransforms calls the fixed image src, and its matrix leads from dst to src. Its own test
+    makes this pair of a map and, for FreeSurfer's format, of the inverse of that map."""
+    itk = brainshift.read_transform(real("nitransforms", "affine-RAS.itk.tfm"))
     found = brainshift.read_transform(real("nitransforms", "affine-RAS.fs.lta"))
-    away = largest(found.map(POINTS), right.map(POINTS))
-    assert away < NEAR, away
+    away, same = (largest(found.map(points), right) for points, right in (
+        (itk.map(POINTS), POINTS), (POINTS, itk.map(POINTS))))
+    assert away < NEAR and same > 1.0, (away, same)
 
 
 def lta(kind, matrix, src, dst, note=""):
@@ -136,8 +139,10 @@ def test_images_say_which_end_of_an_lta_they_are():
     found = brainshift.read_transform(write("voxels.lta", lta(0, ofvoxels, *ends))).map(POINTS)
     assert largest(found, back) < 1e-4  # the images hold float32
     note = "# LTA-array file created by NiTransforms\n"
-    found = brainshift.read_transform(write("ni.lta", lta(1, matrix, *ends, note))).map(POINTS)
-    assert largest(found, forward) < 1e-9
+    for right, options in ((back, {}), (back, {"fixed_image": src}), (back, {"moving_image": dst}),
+                           (forward, {"fixed_image": dst})):
+        found = brainshift.read_transform(write("ni.lta", lta(1, matrix, *ends, note)), **options)
+        assert largest(found.map(POINTS), right) < 1e-9, options
 
 
 def test_lta_that_is_refused():

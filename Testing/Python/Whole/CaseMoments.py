@@ -198,12 +198,16 @@ def test_traces_of_all_moments_are_told_apart_by_time_stamps():
     assert third.traces == first.traces
     assert positions(third.traced) == set(map(tuple, numpy.round(
         points[stamps >= zero + 120 * minute], 6).tolist()))
+    second.volume = None
+    assert positions(first.traced) == set(map(tuple, numpy.round(
+        points[(stamps >= zero) & (stamps < zero + 120 * minute)], 6).tolist())), "it has them now"
     kept = [positions(case.traced) for case in first.moments]
     simple.SaveState(scratch("timed.pvsm"))
     simple.ResetSession()
     load_plugin()
     simple.LoadState(scratch("timed.pvsm"))
     again = brainshift.Case.all()[0].moments
+    again[0].holds_outside = True  # the pipeline is wired anew before anything is updated
     assert [positions(case.traced) for case in again] == kept
     again[0].traces_by_time = ""
     assert again[1].traced == again[0].traces and "timed" not in [
@@ -218,7 +222,8 @@ def test_traces_without_time_stamps_are_refused_as_those_of_all_moments():
     second.traces = stamped("late.csv", numpy.arange(50.0), cap(50))
     refused(["traces of its own", "pointer"], lambda: setattr(second, "traces_by_time", "ms"))
     first.traces = None
-    second.traces_by_time = "ms"
+    first.traces_by_time = "ms"  # also from a moment that has none
+    assert first.traces == second.traces
     refused(["no time stamps"], lambda: setattr(second, "traces", path("pointer.csv")))
     assert second.traces is not None and second.traces == first.traces
     timed = first.part("timed")

@@ -99,6 +99,7 @@ def test_four_ranks_of_pvbatch():
     found = answers_of_batch(4, folder_of(4))
     assert_same(found)
     assert_same_files(folder_of(4))
+    assert found["bytes again"] <= found["bytes far"], "the first rank gives the whole volume back"
     for name, most in (("unbent", 0.55), ("bent", 0.75)):  # a quarter, and 10 mm of 60 beyond
         share = found[f"bytes {name}"][0] / EXPECTED[f"bytes {name}"][0]
         print(name, "share of the first rank", share, flush=True)

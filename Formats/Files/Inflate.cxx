@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/OMEZarr/Inflate.h"
+#include "Formats/Files/Inflate.h"
 
 #include "Common/Problem.h"
 
