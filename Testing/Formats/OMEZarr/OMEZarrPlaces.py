@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that voxels of OME-Zarr lie where their metadata say, to the last digit: scale and
 # translation of levels and of the group, every unit, 2D, levels by memory, labels, several images.
+import os
+
 import numpy
 import zarr_files
 from brainshift_testing import load_plugin, messages, output, run_tests
@@ -120,6 +122,27 @@ def test_two_axes_make_a_slice():
         image = output(simple.OMEZarrReader(FileName=path))
     assert image.GetDimensions() == (2, 3, 1) and "one slice of 1 mm" in said.text, said.text
     near(image.GetSpacing(), (3, 2, 1))
+
+
+def test_levels_without_translations_are_reported():
+    path = fresh()
+    for i, side in enumerate((32, 16)):
+        write_array(path, str(i), numpy.full((side,) * 3, i + 1, "uint16"), chunks=(8, 8, 8))
+    describe(path, [level(str(i), [2.0 ** i] * 3) for i in range(2)])
+    assert "no translation" not in said_of(path, Level=0)
+    text = said_of(path, Level=1)
+    assert "no translation of level 1" in text and "up to 0.5 mm from its place" in text, text
+
+
+def test_a_store_without_chunks_is_reported():
+    path = one_level([{"type": "scale", "scale": [1, 1, 1]}])
+    assert "no chunk" not in said_of(path)
+    kept = {"zarr.json", ".zarray", ".zattrs", ".zgroup"}
+    for folder, _, names in os.walk(path):
+        for name in set(names) - kept:
+            os.remove(os.path.join(folder, name))
+    text = said_of(path)
+    assert "seems to have no chunk of level 0, such as '0/" in text, text
 
 
 def test_the_sides_are_not_known():

@@ -220,7 +220,7 @@ def test_traces_without_time_stamps_are_refused_as_those_of_all_moments():
     refused(["'h'", "s, ms, min"], lambda: setattr(first, "traces_by_time", "h"))
     refused(["finite"], lambda: setattr(first, "trace_start", float("inf")))
     second.traces = stamped("late.csv", numpy.arange(50.0), cap(50))
-    refused(["traces of its own", "pointer"], lambda: setattr(second, "traces_by_time", "ms"))
+    refused(["traces of its own", "late"], lambda: setattr(second, "traces_by_time", "ms"))
     first.traces = None
     first.traces_by_time = "ms"  # also from a moment that has none
     assert first.traces == second.traces
