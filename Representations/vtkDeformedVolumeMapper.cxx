@@ -112,9 +112,10 @@ double* vtkDeformedVolumeMapper::GetBounds()
 {
   vtkVolumeMapper::GetBounds();
   auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
-  if (image && this->Internal->Part)
+  const std::optional<DrawnPart>& part = this->Internal->Part;
+  if (image && part)
   {
-    std::copy_n(this->Internal->Part->bounds.data(), 6, this->Bounds);
+    std::copy_n(part->bounds.data(), 6, this->Bounds);
   }
   else if (image)
   {
