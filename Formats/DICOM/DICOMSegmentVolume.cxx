@@ -27,6 +27,11 @@ public:
       this->Next.insert({ { voxel, segment }, static_cast<std::uint32_t>(this->Sets.size()) });
     if (isNew)
     {
+      if (this->Sets.size() > MostSets)
+      {
+        throw Problem("has voxels of more than " + std::to_string(MostSets) +
+          " different groups of segments; save the segments in several files");
+      }
       for (std::uint32_t set = voxel; set != 0; set = this->Sets[set].first)
       {
         this->Pairs.insert(std::minmax(this->Sets[set].second, segment));
@@ -39,6 +44,7 @@ public:
   bool share(int one, int other) const { return this->Pairs.count(std::minmax(one, other)) > 0; }
 
 private:
+  static constexpr std::size_t MostSets = 65536; // damaged files make any number
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> Next;
   std::vector<std::pair<std::uint32_t, int>> Sets{ { 0, 0 } }; // the set without its last segment
   std::set<std::pair<int, int>> Pairs;

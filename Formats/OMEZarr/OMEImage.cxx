@@ -89,6 +89,11 @@ void addWithLabels(const ZarrStore& store, const std::string& path, std::vector<
 void addSeries(const ZarrStore& store, std::vector<OMEChoice>& found)
 {
   const Json list = memberOf(groupAt(store, "OME").said, "series");
+  if (list.is_array() && list.size() > MostImages)
+  {
+    throw Problem("names " + std::to_string(list.size()) + " images in its series; it may name " +
+      std::to_string(MostImages) + ". Open the folder of one of them");
+  }
   for (const Json& name : list.is_array() ? list : Json::array())
   {
     requireInside(textIn(name));
