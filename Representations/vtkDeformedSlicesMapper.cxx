@@ -11,6 +11,7 @@
 #include "Representations/Scene/Remarks.h"
 #include "Representations/Scene/SceneFrame.h"
 #include "Representations/Slices/SliceDrawer.h"
+#include "Representations/Tissue/FinestLevel.h"
 #include "Representations/Tissue/ResectionTextures.h"
 #include "Representations/Tissue/SceneReference.h"
 
@@ -37,6 +38,7 @@ struct vtkDeformedSlicesMapper::Device
   ResectionTextures Resected;
   SliceDrawer Drawer;
   GpuMemory Memory;
+  FinestLevel Level;
   DrawnSlices Drawn;
 
   void Release(vtkWindow* window)
@@ -133,7 +135,8 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   tissue.property = volume->GetProperty();
   tissue.values = values;
   tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
-  tissue.nearest = this->Interpolation == Nearest || isLabelMap(image);
+  tissue.labels = isLabelMap(image);
+  tissue.nearest = tissue.labels || this->Interpolation == Nearest;
   const ReferenceVolume reference = readReference(image);
   tissue.compared = reference.voxels &&
     (reference.show == ReferenceShow::Reference ||
@@ -142,13 +145,19 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   GpuTask gpu(window, this->Internal->Count);
   gpu.moving = isMoving(window->GetDesiredUpdateRate());
   takeOutOfMemory(); // errors of others
-  bool drawn = this->AskForMemory(gpu, device, tissue) &&
-    this->DrawPlanes(gpu, { renderer, volume }, device, tissue);
-  if (takeOutOfMemory())
-  {
-    device.Memory.refuse();
-    drawn = this->AskForMemory(gpu, device, tissue);
-  }
+  const auto draw = [&] {
+    return this->AskForMemory(gpu, device, tissue) &&
+      this->DrawPlanes(gpu, { renderer, volume }, device, tissue);
+  };
+  const bool drawn = device.Level.draw(gpu, tissue, [&] {
+    const bool done = draw();
+    if (takeOutOfMemory())
+    {
+      device.Memory.refuse();
+      return draw(); // less of it, if anything
+    }
+    return done;
+  });
   for (const std::string& remark : gpu.remarks)
   {
     if (this->Internal->Told.insert(remark).second && isNewRemark(image, remark))

@@ -288,13 +288,13 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   values.scalars->GetFiniteRange(
     &tissue.range[0], drawnComponents(property, values.scalars).scalar);
   tissue.gradients = static_cast<GradientSource>(this->NormalTexture);
-  tissue.nearest =
-    property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION || isLabelMap(image);
+  tissue.labels = isLabelMap(image);
+  tissue.nearest = tissue.labels || property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION;
   tissue.skips = this->EmptySpaceSkipping;
   if (this->DrawSegment)
   {
     std::string remark;
-    tissue.segment = requestSegment(image, values.grid, values.layout, this->DrawnLabels, remark);
+    tissue.segment = requestSegment(image, this->DrawnLabels, remark);
     this->TellOnce(remark);
   }
   return tissue;

@@ -236,7 +236,8 @@ const char* vtkDeformedVolumeReport::GetCounters()
        << "\nsamplesTaken " << count.samplesTaken << "\nsamplesSkipped " << count.samplesSkipped
        << "\nimageScale " << count.imageScale << "\nprogramsCompiled " << count.programsCompiled
        << "\ngpuScalarBytes " << count.gpuScalarBytes << "\ngpuOtherBytes " << count.gpuOtherBytes
-       << "\ngpuFieldMicroseconds " << count.gpuFieldMicroseconds;
+       << "\ngpuVoxelsPerTexel " << count.gpuVoxelsPerTexel << "\ngpuFieldMicroseconds "
+       << count.gpuFieldMicroseconds;
   this->Counters = text.str();
   return this->Counters.c_str();
 }

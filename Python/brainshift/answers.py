@@ -116,6 +116,7 @@ def gpu(representation):
 
     - `gpuScalarBytes`: bytes of the voxels
     - `gpuOtherBytes`: bytes of all other textures and buffers, including those of picture size
+    - `gpuVoxelsPerTexel`: voxels that one value stands for; 1: there is memory for each of them
     - `gpuFieldMicroseconds`: microseconds of the last computation from control points to offset
       field, or 0 if the driver does not measure it
 

@@ -11,9 +11,6 @@ UNITS = {"s": 60.0, "ms": 60000.0, "min": 1.0}
 #: The point array of time stamps, as Landmark Reader calls it.
 _STAMPS = "Time"
 
-#: Beyond all time stamps.
-_FOREVER = 1e300
-
 
 class TimedTraces:
     """The traces of a `Case`, which derives from this, at its moment."""
@@ -141,9 +138,12 @@ class TimedTraces:
         if timed is None:
             return
         later = [case for case in self.moments if case.minutes > self.minutes]
-        end = math.nextafter(later[0]._stamp(), -math.inf) if later else _FOREVER
-        self._set(timed, {"Scalars": ["POINTS", _STAMPS], "ThresholdMethod": "Between",
-                          "LowerThreshold": self._stamp(), "UpperThreshold": end})
+        # The last moment has no end. A number for it would be beyond the panel's sliders.
+        start = self._stamp()
+        end = math.nextafter(later[0]._stamp(), -math.inf) if later else start
+        self._set(timed, {"Scalars": ["POINTS", _STAMPS],
+                          "ThresholdMethod": "Between" if later else "Above Upper Threshold",
+                          "LowerThreshold": start, "UpperThreshold": end})
 
     def _rewire_times(self):
         """Makes the points of other moments agree with the time of this one."""

@@ -196,7 +196,8 @@ bool DeviceDeformation::askForMemory(
     }
     this->Field.forgetCorrections();
   }
-  return gpu.problem.empty();
+  gpu.lacksMemory = !gpu.problem.empty();
+  return !gpu.lacksMemory;
 }
 
 void DeviceDeformation::askTime(std::int64_t& microseconds)

@@ -148,6 +148,29 @@ bool drawsInSoftware()
   return renderer && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));
 }
 
+// A driver answers for a proxy at once; a texture that does not fit takes seconds to be refused.
+std::string textureProblem(vtkOpenGLRenderWindow* window, const glm::ivec3& texels)
+{
+  const int limit = vtkTextureObject::GetMaximumTextureSize3D(window);
+  const int longest = std::max({ texels.x, texels.y, texels.z });
+  if (longest > limit)
+  {
+    return "The volume has " + std::to_string(longest) +
+      " voxels along one axis; the GPU takes at most " + std::to_string(limit);
+  }
+  glTexImage3D(
+    GL_PROXY_TEXTURE_3D, 0, GL_R32F, texels.x, texels.y, texels.z, 0, GL_RED, GL_FLOAT, nullptr);
+  GLint width = 0;
+  glGetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &width);
+  return width == texels.x ? std::string() : refusedTexture(texels);
+}
+
+std::string refusedTexture(const glm::ivec3& texels)
+{
+  return "The GPU refused a 3D texture of " + std::to_string(texels.x) + " x " +
+    std::to_string(texels.y) + " x " + std::to_string(texels.z) + " voxels";
+}
+
 bool takeOutOfMemory()
 {
   constexpr int MostErrors = 16; // a lost context reports without end

@@ -76,6 +76,12 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT double freeMemoryMiB(vtkOpenGLRenderWindow* 
 /// own memory.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool drawsInSoftware();
 
+/// Empty, or one sentence if the GPU says that it takes no 3D texture of so many texels a side.
+std::string textureProblem(vtkOpenGLRenderWindow* window, const glm::ivec3& texels);
+
+/// The sentence if it said so only when the texture was made.
+std::string refusedTexture(const glm::ivec3& texels);
+
 /// Clears the errors that OpenGL has reported so far. True if it was out of memory.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool takeOutOfMemory();
 

@@ -38,6 +38,7 @@ struct Counters
 
   std::int64_t gpuScalarBytes = 0;       ///< Now: textures of the volume's scalars.
   std::int64_t gpuOtherBytes = 0;        ///< Now: all other textures and buffers.
+  std::int64_t gpuVoxelsPerTexel = 1;    ///< Now: more than 1 where memory is short.
   std::int64_t gpuFieldMicroseconds = 0; ///< The GPU's last run from lattice to offset field.
 };
 
@@ -56,11 +57,21 @@ struct GpuTask
   std::string problem;              ///< One sentence, without a full stop, if the work failed.
   std::vector<std::string> remarks; ///< Warnings for the user; each is shown once.
 
+  bool lacksMemory = false; ///< The work failed for want of memory: less of it may succeed.
+  bool refused = false;     ///< The driver was asked for that memory.
+
   /// Keeps the sentence as the problem. Returns false, for `return gpu.fail("...")`.
   bool fail(const std::string& sentence)
   {
     this->problem = sentence;
     return false;
+  }
+
+  /// The same, if the driver gave no memory.
+  bool refuse(const std::string& sentence)
+  {
+    this->lacksMemory = this->refused = true;
+    return this->fail(sentence);
   }
 };
 }

@@ -50,17 +50,20 @@ bool VolumeDevice::draw(
   drawn.renderer->GetTiledSizeAndOrigin(&wish.size.x, &wish.size.y, &wish.origin.x, &wish.origin.y);
   takeOutOfMemory(); // errors of others
   const auto draw = [&] {
-    return this->askForMemory(gpu, deformation, request) &&
-      this->drawTissue(gpu, drawn, deformation, request);
+    VolumeRequest possible = request;
+    return this->askForMemory(gpu, deformation, possible) &&
+      this->drawTissue(gpu, drawn, deformation, possible);
   };
-  const bool done = draw();
-  if (takeOutOfMemory())
-  {
-    this->Memory.refuse();
-    this->Picture.forget();
-    return draw(); // less of it, if anything
-  }
-  return done;
+  return this->Level.draw(gpu, request.tissue, [&] {
+    const bool done = draw();
+    if (takeOutOfMemory())
+    {
+      this->Memory.refuse();
+      this->Picture.forget();
+      return draw(); // less of it, if anything
+    }
+    return done;
+  });
 }
 
 // Memory is requested before it is taken: some drivers end the program when there is none. If there

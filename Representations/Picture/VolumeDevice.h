@@ -9,6 +9,7 @@
 #include "Representations/Picture/Picture.h"
 #include "Representations/Picture/SelectionCover.h"
 #include "Representations/Tissue/DeviceTissue.h"
+#include "Representations/Tissue/FinestLevel.h"
 #include "Representations/Tissue/ResectionTextures.h"
 #include "Representations/Tissue/SceneReference.h"
 
@@ -72,6 +73,7 @@ private:
   brainshift::Picture Picture;
   SelectionCover Cover;
   GpuMemory Memory;
+  FinestLevel Level;
 };
 }
 

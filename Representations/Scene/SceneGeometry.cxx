@@ -17,13 +17,28 @@ namespace brainshift
 ValueLayout layoutOf(const glm::ivec3& points, bool cells)
 {
   ValueLayout layout;
-  layout.dimensions = cells ? glm::max(points - 1, glm::ivec3(1)) : points;
+  layout.voxels = cells ? glm::max(points - 1, glm::ivec3(1)) : points;
+  layout.dimensions = layout.voxels;
   const glm::dvec3 values(layout.dimensions);
   layout.textureFromGrid = 1.0 / values;
   layout.textureOfGridZero = cells ? glm::dvec3(0.0) : 0.5 / values;
   layout.low = layout.textureOfGridZero;
   layout.high = glm::dvec3(points - 1) * layout.textureFromGrid + layout.textureOfGridZero;
   return layout;
+}
+
+ValueLayout coarser(const ValueLayout& layout, const glm::ivec3& perTexel)
+{
+  ValueLayout coarse = layout;
+  coarse.perTexel = perTexel;
+  coarse.dimensions = (layout.voxels + perTexel - 1) / perTexel;
+  const glm::dvec3 smaller =
+    glm::dvec3(layout.dimensions) / glm::dvec3(perTexel * coarse.dimensions);
+  coarse.textureFromGrid = layout.textureFromGrid * smaller;
+  coarse.textureOfGridZero = layout.textureOfGridZero * smaller;
+  coarse.low = layout.low * smaller;
+  coarse.high = layout.high * smaller;
+  return coarse;
 }
 
 glm::dvec3 roundingOf(const ValueLayout& layout)

@@ -8,6 +8,7 @@
 #define BrainShift_SceneGeometry_h
 
 #include "Common/Grid.h"
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 #include <optional>
 
@@ -22,15 +23,24 @@ namespace brainshift
 /// Layout of the values of the drawn array: on the image's points, or in its cells.
 struct ValueLayout
 {
-  glm::ivec3 dimensions{ 0 };        ///< Values a side.
+  glm::ivec3 voxels{ 0 };            ///< Values of the array, a side.
+  glm::ivec3 perTexel{ 1 };          ///< Of these, a side, that one texel stands for.
+  glm::ivec3 dimensions{ 0 };        ///< Texels a side.
   glm::dvec3 textureFromGrid{ 1.0 }; ///< texture = grid * textureFromGrid + textureOfGridZero
   glm::dvec3 textureOfGridZero{ 0.0 };
   glm::dvec3 low{ 0.0 }; ///< The volume's box, texture coordinates.
   glm::dvec3 high{ 1.0 };
+
+  bool isWhole() const { return this->perTexel == glm::ivec3(1); }
 };
 
 /// Layout of values on `points` points a side, or in the cells between them.
-ValueLayout layoutOf(const glm::ivec3& points, bool cells);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ValueLayout layoutOf(const glm::ivec3& points, bool cells);
+
+/// The same volume in a texture with a texel for `perTexel` voxels a side. The last ones may stand
+/// for fewer.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ValueLayout coarser(
+  const ValueLayout& layout, const glm::ivec3& perTexel);
 
 /// How far beyond the volume's box (texture coordinates) a place still counts as inside: a plane on
 /// the very face of the box must not come and go with rounding.
@@ -53,7 +63,8 @@ struct DrawnValues
 DrawnValues drawnValuesOf(vtkAbstractVolumeMapper* mapper, vtkImageData* image);
 
 /// World (mm) from texture coordinates; `actor` is the matrix of the vtkVolume.
-glm::dmat4 worldFromTexture(const Grid& grid, const ValueLayout& layout, vtkMatrix4x4* actor);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::dmat4 worldFromTexture(
+  const Grid& grid, const ValueLayout& layout, vtkMatrix4x4* actor);
 
 /// Clip coordinates from world (mm), of the renderer's active camera.
 glm::dmat4 clipFromWorld(vtkRenderer* renderer);

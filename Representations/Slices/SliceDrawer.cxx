@@ -59,7 +59,7 @@ bool ReferenceTextures::update(GpuTask& gpu, const ReferenceVolume& reference,
   const ComparisonChoice& choice, const ComparedVolume& volume, ReferenceScene& scene)
 {
   const ValueLayout layout = layoutOf(reference.grid.dimensions, false);
-  if (!this->Voxels.update(gpu, reference.voxels, layout.dimensions, FirstComponent))
+  if (!this->Voxels.update(gpu, reference.voxels, layout, FirstComponent))
   {
     return false;
   }

@@ -16,7 +16,7 @@ bool CavityTexture::update(
   }
   const ValueLayout layout = layoutOf(cavity.grid.dimensions, false);
   constexpr int firstComponent = 0;
-  if (!this->Voxels.update(gpu, cavity.voxels, layout.dimensions, firstComponent))
+  if (!this->Voxels.update(gpu, cavity.voxels, layout, firstComponent))
   {
     return false;
   }

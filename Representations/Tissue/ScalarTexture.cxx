@@ -3,6 +3,7 @@
 
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/OpenGL.h"
+#include "Representations/Tissue/CoarseVoxels.h"
 
 #include "vtkDataArray.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -48,17 +49,27 @@ void convertTyped(vtkDataArray* scalars, int component, Stored* stored, const Co
   });
 }
 
-// The memory is not set to zero, so that each thread is the first to touch its own part.
-template <typename Stored, typename Convert>
-std::unique_ptr<Stored[]> convertAll(vtkDataArray* scalars, int component, const Convert& convert)
+// One number for the voxels of each texel.
+template <typename T, typename Stored, typename Convert>
+void convertCoarser(const ScalarSource& source, Stored* stored, const Convert& convert)
 {
-  std::unique_ptr<Stored[]> stored(new Stored[scalars->GetNumberOfTuples()]);
-  switch (scalars->GetDataType())
+  vtkDataArray* scalars = source.scalars;
+  const T* values = static_cast<const T*>(scalars->GetVoidPointer(0));
+  const int components = scalars->GetNumberOfComponents();
+  const int chosen = std::min(source.component, components - 1);
+  const auto voxel = [=](vtkIdType i) {
+    return chosen < 0 ? lengthOf(values + i * components, components)
+                      : static_cast<double>(values[i * components + chosen]);
+  };
+  const auto write = [=](vtkIdType texel, double number) { stored[texel] = convert(number); };
+  if (source.labels)
   {
-    vtkTemplateMacro(
-      (convertTyped<VTK_TT, Stored, Convert>(scalars, component, stored.get(), convert)));
+    mostFrequentVoxels(source.layout, voxel, write);
   }
-  return stored;
+  else
+  {
+    averageVoxels(source.layout, voxel, write);
+  }
 }
 
 // Types that 16 bits hold exactly. Eight-bit textures are avoided: their filter has eight bits too.
@@ -67,12 +78,43 @@ bool fitsSixteenBits(vtkDataArray* scalars, int component)
   return component >= 0 && scalars->GetDataTypeSize() <= 2;
 }
 
-// Counts textures that were given back, in all windows: what was refused before may fit now.
 int& texturesGivenBack()
 {
   static int count = 0;
   return count;
 }
+}
+
+int ScalarTexture::givenBack()
+{
+  return texturesGivenBack();
+}
+
+// The memory is not set to zero, so that each thread is the first to touch its own part.
+template <typename Stored, typename Convert>
+std::unique_ptr<Stored[]> ScalarTexture::convertAll(
+  const ScalarSource& source, const Convert& convert)
+{
+  const glm::ivec3& side = source.layout.dimensions;
+  vtkDataArray* scalars = source.scalars;
+  const vtkIdType count = source.layout.isWhole()
+    ? scalars->GetNumberOfTuples()
+    : static_cast<vtkIdType>(side.x) * side.y * side.z;
+  std::unique_ptr<Stored[]> stored(new Stored[count]);
+  if (source.layout.isWhole())
+  {
+    switch (scalars->GetDataType())
+    {
+      vtkTemplateMacro(
+        (convertTyped<VTK_TT, Stored, Convert>(scalars, source.component, stored.get(), convert)));
+    }
+    return stored;
+  }
+  switch (scalars->GetDataType())
+  {
+    vtkTemplateMacro((convertCoarser<VTK_TT, Stored, Convert>(source, stored.get(), convert)));
+  }
+  return stored;
 }
 
 ScalarTexture::ScalarTexture() = default;
@@ -88,44 +130,40 @@ int ScalarTexture::bytesOf(vtkDataArray* scalars, int component)
 }
 
 bool ScalarTexture::update(
-  GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component)
+  GpuTask& gpu, vtkDataArray* scalars, const ValueLayout& layout, int component, bool labels)
 {
   const unsigned long long time = scalars->GetMTime();
-  const bool isSame =
-    this->Uploaded == scalars && this->UploadedTime == time && this->UploadedComponent == component;
+  const bool isSame = this->Uploaded == scalars && this->UploadedTime == time &&
+    this->UploadedComponent == component && this->UploadedPerTexel == layout.perTexel;
   if (this->Texture && isSame)
   {
     return true;
   }
   if (isSame && !this->Refusal.empty() && this->RefusedAt == texturesGivenBack())
   {
-    return gpu.fail(this->Refusal); // an allocation of gigabytes takes seconds to fail
+    return gpu.refuse(this->Refusal); // an allocation of gigabytes takes seconds to fail
   }
   this->Texture = nullptr;
   this->Refusal.clear();
   this->Uploaded = scalars;
   this->UploadedTime = time;
   this->UploadedComponent = component;
-  const int limit = vtkTextureObject::GetMaximumTextureSize3D(gpu.window);
-  const int longest = std::max({ dimensions.x, dimensions.y, dimensions.z });
-  if (longest > limit)
+  this->UploadedPerTexel = layout.perTexel;
+  this->Refusal = textureProblem(gpu.window, layout.dimensions);
+  if (this->Refusal.empty() && !this->upload(gpu, { scalars, layout, component, labels }))
   {
-    return gpu.fail("The volume has " + std::to_string(longest) +
-      " voxels along one axis; the GPU takes at most " + std::to_string(limit));
+    this->Refusal = refusedTexture(layout.dimensions);
   }
-  if (!this->upload(gpu, scalars, dimensions, component))
+  if (!this->Refusal.empty())
   {
     this->Texture = nullptr;
-    this->Refusal = "The GPU refused a 3D texture of " + std::to_string(dimensions.x) + " x " +
-      std::to_string(dimensions.y) + " x " + std::to_string(dimensions.z) + " voxels";
     this->RefusedAt = texturesGivenBack();
-    return gpu.fail(this->Refusal);
+    return gpu.refuse(this->Refusal);
   }
   return true;
 }
 
-bool ScalarTexture::upload(
-  GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component)
+bool ScalarTexture::upload(GpuTask& gpu, const ScalarSource& source)
 {
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(gpu.window);
@@ -134,45 +172,56 @@ bool ScalarTexture::upload(
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  return fitsSixteenBits(scalars, component)
-    ? this->uploadSixteenBits(scalars, dimensions, component, gpu.counters)
-    : this->uploadFloats(scalars, dimensions, component, gpu.counters);
+  return fitsSixteenBits(source.scalars, source.component)
+    ? this->uploadSixteenBits(source, gpu.counters)
+    : this->uploadFloats(source, gpu.counters);
 }
 
-bool ScalarTexture::uploadFloats(
-  vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters)
+bool ScalarTexture::uploadFloats(const ScalarSource& source, Counters& counters)
 {
+  vtkDataArray* scalars = source.scalars;
+  const glm::ivec3& dimensions = source.layout.dimensions;
   this->Scale = 1.0;
   this->Shift = 0.0;
   this->Texture->SetInternalFormat(GL_R32F);
-  if (scalars->GetDataType() == VTK_FLOAT && scalars->GetNumberOfComponents() == 1)
+  if (scalars->GetDataType() == VTK_FLOAT && scalars->GetNumberOfComponents() == 1 &&
+    source.layout.isWhole())
   {
     return this->create(
       static_cast<float*>(scalars->GetVoidPointer(0)), VTK_FLOAT, 1.0f, dimensions, counters);
   }
   const auto converted = convertAll<float>(
-    scalars, component, [](auto value) { return static_cast<float>(static_cast<double>(value)); });
+    source, [](auto value) { return static_cast<float>(static_cast<double>(value)); });
   return this->create(converted.get(), VTK_FLOAT, 1.0f, dimensions, counters);
 }
 
 // Whole numbers: stored from the type's lowest value up; eight bits spread over sixteen. Drivers in
 // software read floats 40 % faster, since processors gather those with one instruction.
-bool ScalarTexture::uploadSixteenBits(
-  vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters)
+bool ScalarTexture::uploadSixteenBits(const ScalarSource& source, Counters& counters)
 {
   constexpr float shaderFromStored = 1.0f / 65535.0f;
+  vtkDataArray* scalars = source.scalars;
+  const glm::ivec3& dimensions = source.layout.dimensions;
   const int lowest = static_cast<int>(scalars->GetDataTypeMin());
   const int spread = scalars->GetDataTypeSize() == 1 ? 257 : 1;
   this->Scale = 65535.0 / spread;
   this->Shift = lowest;
   this->Texture->SetInternalFormat(drawsInSoftware() ? GL_R32F : GL_R16);
-  if (scalars->GetDataType() == VTK_UNSIGNED_SHORT && scalars->GetNumberOfComponents() == 1)
+  if (scalars->GetDataType() == VTK_UNSIGNED_SHORT && scalars->GetNumberOfComponents() == 1 &&
+    source.layout.isWhole())
   {
     return this->create(static_cast<std::uint16_t*>(scalars->GetVoidPointer(0)), VTK_UNSIGNED_SHORT,
       shaderFromStored, dimensions, counters);
   }
-  const auto converted = convertAll<std::uint16_t>(scalars, component, [=](auto value) {
-    return static_cast<std::uint16_t>((static_cast<int>(value) - lowest) * spread);
+  const auto converted = convertAll<std::uint16_t>(source, [=](auto value) {
+    if constexpr (std::is_floating_point_v<decltype(value)>) // the mean of several voxels
+    {
+      return static_cast<std::uint16_t>(std::lround((value - lowest) * spread));
+    }
+    else
+    {
+      return static_cast<std::uint16_t>((static_cast<int>(value) - lowest) * spread);
+    }
   });
   return this->create(converted.get(), VTK_UNSIGNED_SHORT, shaderFromStored, dimensions, counters);
 }

@@ -5,10 +5,14 @@
 #define BrainShift_ScalarTexture_h
 
 #include "Representations/Gpu/GpuTask.h"
+#include "Representations/Scene/SceneGeometry.h"
 #include "Representations/Skipping/RestPresence.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
+
+#include <memory>
+#include <string>
 
 class vtkDataArray;
 class vtkTextureObject;
@@ -18,6 +22,15 @@ namespace brainshift
 {
 struct GpuTask;
 
+/// What a texture of scalars is made of, see ScalarTexture::update.
+struct ScalarSource
+{
+  vtkDataArray* scalars;
+  const ValueLayout& layout;
+  int component;
+  bool labels;
+};
+
 /// One number of each voxel: 32-bit floats, or 16-bit integers where these hold the values exactly.
 class ScalarTexture
 {
@@ -25,10 +38,15 @@ public:
   ScalarTexture();
   ~ScalarTexture();
 
-  /// Uploads the array if it changed since the last call. `dimensions`: voxels a side. `component`:
-  /// which number of the voxel; -1: the length of the vector. False, with a problem, if the GPU
-  /// refuses. A refused array is tried again once it changes or another texture was given back.
-  bool update(GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component);
+  /// Uploads the array if it changed since the last call. `component`: which number of the voxel;
+  /// -1: the length of the vector. `labels`: a texel of several voxels has their most frequent
+  /// number, not their mean. False, with a problem, if the GPU refuses. A refused array is tried
+  /// again once it changes or another texture was given back.
+  bool update(GpuTask& gpu, vtkDataArray* scalars, const ValueLayout& layout, int component,
+    bool labels = false);
+
+  /// Counts textures that were given back, in all windows: what was refused before may fit now.
+  static int givenBack();
 
   /// Bytes of one value on the GPU of the current context.
   static int bytesOf(vtkDataArray* scalars, int component);
@@ -52,19 +70,20 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  bool upload(GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component);
-  bool uploadFloats(
-    vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters);
-  bool uploadSixteenBits(
-    vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters);
+  bool upload(GpuTask& gpu, const ScalarSource& source);
+  bool uploadFloats(const ScalarSource& source, Counters& counters);
+  bool uploadSixteenBits(const ScalarSource& source, Counters& counters);
   template <typename Stored>
   bool create(Stored* stored, int type, float shaderFromStored, const glm::ivec3& dimensions,
     Counters& counters);
+  template <typename Stored, typename Convert>
+  static std::unique_ptr<Stored[]> convertAll(const ScalarSource& source, const Convert& convert);
 
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkWeakPointer<vtkDataArray> Uploaded;
   unsigned long long UploadedTime = 0;
   int UploadedComponent = 0;
+  glm::ivec3 UploadedPerTexel{ 0 };
   std::string Refusal; // of the same array; empty: none
   int RefusedAt = 0;   // textures that were given back before
   BrickRanges Ranges;

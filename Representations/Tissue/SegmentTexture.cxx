@@ -60,8 +60,19 @@ std::vector<char> anyAlong(const std::vector<char>& values, glm::ivec3& side, in
 }
 }
 
-SegmentRequest requestSegment(vtkImageData* volume, const Grid& grid, const ValueLayout& layout,
-  const std::vector<int>& asked, std::string& remark)
+Grid gridOfTexels(const Grid& grid, const ValueLayout& layout)
+{
+  const glm::dvec3 first =
+    (0.5 / glm::dvec3(layout.dimensions) - layout.textureOfGridZero) / layout.textureFromGrid;
+  Grid texels = grid;
+  texels.dimensions = layout.dimensions;
+  texels.origin = grid.worldFromGrid(first);
+  texels.spacing *= glm::dvec3(layout.perTexel);
+  return texels;
+}
+
+SegmentRequest requestSegment(
+  vtkImageData* volume, const std::vector<int>& asked, std::string& remark)
 {
   SegmentRequest request;
   request.segmentation = readSegmentation(volume);
@@ -72,11 +83,6 @@ SegmentRequest requestSegment(vtkImageData* volume, const Grid& grid, const Valu
     return request;
   }
   request.chosen = asked.empty() ? request.segmentation.chosen : asked;
-  const glm::dvec3 first =
-    (0.5 / glm::dvec3(layout.dimensions) - layout.textureOfGridZero) / layout.textureFromGrid;
-  request.points = grid;
-  request.points.dimensions = layout.dimensions;
-  request.points.origin = grid.worldFromGrid(first);
   return request;
 }
 
@@ -133,25 +139,25 @@ int SegmentTexture::bytesOfVoxel()
   return drawsInSoftware() ? 4 : 1;
 }
 
-bool SegmentTexture::holds(const SegmentRequest& request) const
+bool SegmentTexture::holds(const SegmentRequest& request, const Grid& texels) const
 {
   const Segmentation& asked = request.segmentation;
   return this->Texture && this->Uploaded.segmentation.labels == asked.labels &&
     this->UploadedTime == asked.labels->GetMTime() &&
     this->Uploaded.segmentation.grid == asked.grid && this->Uploaded.chosen == request.chosen &&
-    this->Uploaded.points == request.points;
+    this->Texels == texels;
 }
 
 bool SegmentTexture::update(
-  vtkOpenGLRenderWindow* window, const SegmentRequest& request, Counters& counters, bool& changed)
+  GpuTask& gpu, const SegmentRequest& request, const Grid& texels, bool& changed)
 {
   if (!request.segmentation.labels)
   {
     changed = this->Texture != nullptr;
-    this->releaseGraphicsResources(window);
+    this->releaseGraphicsResources(gpu.window);
     return true;
   }
-  changed = !this->holds(request);
+  changed = !this->holds(request, texels);
   if (!changed)
   {
     return true;
@@ -160,15 +166,16 @@ bool SegmentTexture::update(
   const bool any =
     std::find(segment.inside.begin(), segment.inside.end(), 1) != segment.inside.end();
   this->Remark = any ? std::string() : noVoxel(request.chosen);
-  std::vector<std::uint8_t> fractions = segmentFractions(segment, request.points);
-  const glm::ivec3& side = request.points.dimensions;
+  std::vector<std::uint8_t> fractions = segmentFractions(segment, texels);
+  const glm::ivec3& side = texels.dimensions;
   this->Reaching = bricksReaching(fractions, side);
-  this->Texture = fractionTexture(window, std::move(fractions), side, counters);
+  this->Texture = fractionTexture(gpu.window, std::move(fractions), side, gpu.counters);
   if (!this->Texture)
   {
     return false;
   }
   this->Uploaded = request;
+  this->Texels = texels;
   this->UploadedTime = request.segmentation.labels->GetMTime();
   return true;
 }

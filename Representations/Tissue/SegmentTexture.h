@@ -18,18 +18,20 @@ namespace brainshift
 {
 struct ValueLayout;
 
-/// Which segment of which labels, at which points.
+/// Which segment of which labels.
 struct SegmentRequest
 {
   Segmentation segmentation; ///< Without labels all tissue is drawn.
   std::vector<int> chosen;   ///< Labels to draw; none: all above 0.
-  Grid points;               ///< Of the volume's values.
 };
 
-/// What is drawn of a volume on `grid`: the labels in `asked`, or else those that its segmentation
+/// The middles of the texels of a volume on `grid`.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT Grid gridOfTexels(const Grid& grid, const ValueLayout& layout);
+
+/// What is drawn of a volume: the labels in `asked`, or else those that its segmentation
 /// means. There are no labels, but one sentence in `remark`, if the volume carries no segmentation.
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT SegmentRequest requestSegment(vtkImageData* volume,
-  const Grid& grid, const ValueLayout& layout, const std::vector<int>& asked, std::string& remark);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT SegmentRequest requestSegment(
+  vtkImageData* volume, const std::vector<int>& asked, std::string& remark);
 
 /// The ranges of those bricks that reach into the segment. The other bricks hold no number.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickRanges rangesWithin(
@@ -51,10 +53,9 @@ public:
   SegmentTexture();
   ~SegmentTexture();
 
-  /// Uploads the segment if it changed. Without labels, lets go of the texture. `changed`: whether
-  /// it is another segment than before. False if the GPU refuses.
-  bool update(vtkOpenGLRenderWindow* window, const SegmentRequest& request, Counters& counters,
-    bool& changed);
+  /// Uploads the segment at `texels` if it changed. Without labels, lets go of the texture.
+  /// `changed`: whether it is another segment than before. False if the GPU refuses.
+  bool update(GpuTask& gpu, const SegmentRequest& request, const Grid& texels, bool& changed);
 
   /// Bytes of a voxel on the GPU of the current context.
   static int bytesOfVoxel();
@@ -74,10 +75,11 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  bool holds(const SegmentRequest& request) const;
+  bool holds(const SegmentRequest& request, const Grid& texels) const;
 
   vtkSmartPointer<vtkTextureObject> Texture;
   SegmentRequest Uploaded;
+  Grid Texels;
   unsigned long long UploadedTime = 0;
   std::vector<char> Reaching;
   std::string Remark;

@@ -86,6 +86,7 @@ TissueRequest TissueTextures::withCategories(GpuTask& gpu, const TissueRequest& 
   drawn.values.scalars = this->Categories.numbers();
   drawn.property = this->Categories.property();
   drawn.nearest = true;
+  drawn.labels = true;
   drawn.opacity = Opacity::Scalar;
   return drawn;
 }
@@ -99,7 +100,7 @@ bool TissueTextures::updateMapped(GpuTask& gpu, const TissueRequest& request, Sc
   tissue.blend = request.blend;
   tissue.coloring.source = drawn.coloring;
   tissue.stepMm = request.stepMm;
-  if (!this->Scalars.update(gpu, scalars, request.values.layout.dimensions, drawn.scalar))
+  if (!this->Scalars.update(gpu, scalars, request.values.layout, drawn.scalar, request.labels))
   {
     return false;
   }
@@ -158,7 +159,7 @@ void TissueTextures::describe(const TissueRequest& request, SceneTissue& tissue)
   tissue.transferFromScalar = transferFromStored(this->Transfer, this->Stored);
   tissue.visibleScalars =
     this->Transfer.visibleValues(this->Stored.scale, this->Stored.shift).ends();
-  tissue.voxel = layout.textureFromGrid;
+  tissue.voxel = 1.0 / glm::dvec3(layout.dimensions);
   tissue.volumeLow = layout.low;
   tissue.volumeHigh = layout.high;
   // Light at the segment's edge: how much the gradients, as they are read, would change if the
@@ -167,11 +168,12 @@ void TissueTextures::describe(const TissueRequest& request, SceneTissue& tissue)
   const double least = std::max<double>(tissue.visibleScalars.x, mapStart);
   const double scale = CutWeight * (tissue.normals ? this->Normals.scale() : 1.0);
   tissue.segment.cutGradient = { scale, -scale * least };
-  tissue.segment.voxel = layout.textureFromGrid;
+  tissue.segment.voxel = tissue.voxel;
   tissue.steepness = this->steepnessFor(request);
 }
 
-// VTK takes differences over N / (N - 1) voxels, N along that axis, as if these were one.
+// VTK takes differences over N / (N - 1) voxels, N along that axis, as if these were one. Texels of
+// several voxels give the steepness that the voxels would have.
 SceneSteepness TissueTextures::steepnessFor(const TissueRequest& request) const
 {
   SceneSteepness steepness;
@@ -180,9 +182,10 @@ SceneSteepness TissueTextures::steepnessFor(const TissueRequest& request) const
   steepness.stepMm = opacityStepOf(request);
   const glm::dvec3& side = request.values.grid.spacing;
   const double width = request.range.y > request.range.x ? request.range.y - request.range.x : 1.0;
-  steepness.step = 1.0 / glm::dvec3(glm::max(request.values.layout.dimensions - 1, 1));
-  steepness.fromGradient = steepness.step * (side.x + side.y + side.z) / (3.0 * side) *
-    this->Stored.scale / (SteepestFraction * width);
+  const ValueLayout& layout = request.values.layout;
+  steepness.step = 1.0 / glm::dvec3(glm::max(layout.dimensions - 1, 1));
+  steepness.fromGradient = steepness.step / glm::dvec3(layout.perTexel) *
+    (side.x + side.y + side.z) / (3.0 * side) * this->Stored.scale / (SteepestFraction * width);
   const glm::dvec2 entry = this->Steepness.entryFromFraction();
   steepness.entryFromScalar = { this->Stored.scale / width * entry.x,
     (this->Stored.shift - request.range.x) / width * entry.x + entry.y };
@@ -195,18 +198,18 @@ bool TissueTextures::updateColors(
   GpuTask& gpu, const TissueRequest& request, SceneColoring& coloring)
 {
   vtkDataArray* scalars = request.values.scalars;
-  const glm::ivec3& dimensions = request.values.layout.dimensions;
+  const ValueLayout& layout = request.values.layout;
   if (coloring.source == Coloring::Direct)
   {
-    if (!this->Colors.update(gpu.window, scalars, dimensions, gpu.counters))
+    if (!this->Colors.update(gpu.window, scalars, layout, gpu.counters))
     {
-      return gpu.fail("The GPU refused a 3D texture for the volume's own colours");
+      return gpu.refuse("The GPU refused a 3D texture for the volume's own colours");
     }
     coloring.colors = this->Colors.texture();
   }
   else if (coloring.source == Coloring::OtherScalar)
   {
-    if (!this->ColorScalars.update(gpu, scalars, dimensions, 0))
+    if (!this->ColorScalars.update(gpu, scalars, layout, 0, request.labels))
     {
       return false;
     }
@@ -221,9 +224,10 @@ bool TissueTextures::updateColors(
 bool TissueTextures::updateSegment(GpuTask& gpu, const TissueRequest& request, SceneTissue& tissue)
 {
   bool changed = false;
-  if (!this->Segment.update(gpu.window, request.segment, gpu.counters, changed))
+  const Grid texels = gridOfTexels(request.values.grid, request.values.layout);
+  if (!this->Segment.update(gpu, request.segment, texels, changed))
   {
-    return gpu.fail("The GPU refused a 3D texture for the segment that is drawn alone");
+    return gpu.refuse("The GPU refused a 3D texture for the segment that is drawn alone");
   }
   this->VisibilityChanged = this->VisibilityChanged || changed;
   tissue.segment.fractions = this->Segment.texture();
@@ -250,7 +254,7 @@ bool TissueTextures::updateGradients(
   if (!this->Normals.update(
         gpu, scalars, request.values.layout.dimensions, half, this->Scalars.difference()))
   {
-    return gpu.fail(
+    return gpu.refuse(
       "The gradients' shader does not compile or their texture cannot be made on this GPU");
   }
   tissue.normals = this->Normals.texture();

@@ -39,6 +39,7 @@ struct TissueRequest
   Blend blend = Blend::Composite;
   GradientSource gradients = GradientSource::FullResolution;
   bool nearest = false; ///< Voxels are drawn as they are, not blended.
+  bool labels = false;  ///< Values are numbers of something: an average means nothing.
   bool skips = true;    ///< Leap over empty space if the picture stays the same.
   SegmentRequest segment;
   Opacity opacity = Opacity::Scalar;

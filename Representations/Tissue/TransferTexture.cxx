@@ -2,6 +2,7 @@
 #include "Representations/Tissue/TransferTexture.h"
 
 #include "Representations/Gpu/OpenGL.h"
+#include "Representations/Tissue/CoarseVoxels.h"
 #include "Representations/Tissue/SteepnessTexture.h"
 
 #include "vtkColorTransferFunction.h"
@@ -43,19 +44,38 @@ std::vector<std::uint8_t> bytesOf(vtkDataArray* array)
   });
   return bytes;
 }
+
+std::vector<std::uint8_t> coarserBytes(
+  const std::vector<std::uint8_t>& bytes, const ValueLayout& layout)
+{
+  const glm::ivec3& side = layout.dimensions;
+  std::vector<std::uint8_t> coarse(static_cast<std::size_t>(Channels) * side.x * side.y * side.z);
+  for (int c = 0; c < Channels; ++c)
+  {
+    averageVoxels(
+      layout, [&](vtkIdType voxel) { return static_cast<double>(bytes[Channels * voxel + c]); },
+      [&](vtkIdType texel, double mean) {
+        coarse[Channels * texel + c] = static_cast<std::uint8_t>(mean + 0.5);
+      });
+  }
+  return coarse;
+}
 }
 
 ColorTexture::ColorTexture() = default;
 ColorTexture::~ColorTexture() = default;
 
-bool ColorTexture::update(vtkOpenGLRenderWindow* window, vtkDataArray* array,
-  const glm::ivec3& dimensions, Counters& counters)
+bool ColorTexture::update(
+  vtkOpenGLRenderWindow* window, vtkDataArray* array, const ValueLayout& layout, Counters& counters)
 {
-  if (this->Texture && this->Uploaded == array && this->UploadedTime == array->GetMTime())
+  if (this->Texture && this->Uploaded == array && this->UploadedTime == array->GetMTime() &&
+    this->UploadedPerTexel == layout.perTexel)
   {
     return true;
   }
-  std::vector<std::uint8_t> bytes = bytesOf(array);
+  std::vector<std::uint8_t> bytes =
+    layout.isWhole() ? bytesOf(array) : coarserBytes(bytesOf(array), layout);
+  const glm::ivec3& dimensions = layout.dimensions;
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
@@ -70,6 +90,7 @@ bool ColorTexture::update(vtkOpenGLRenderWindow* window, vtkDataArray* array,
   }
   this->Uploaded = array;
   this->UploadedTime = array->GetMTime();
+  this->UploadedPerTexel = layout.perTexel;
   return true;
 }
 

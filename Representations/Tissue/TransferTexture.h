@@ -6,6 +6,7 @@
 
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/ShaderSource.h"
+#include "Representations/Scene/SceneGeometry.h"
 #include "Representations/Skipping/RestPresence.h"
 
 #include "vtkSmartPointer.h"
@@ -29,8 +30,8 @@ public:
   ~ColorTexture();
 
   /// Uploads the array if it changed since the last call. Whole numbers are clamped to 0 to 255,
-  /// real numbers to 0 to 1. `dimensions`: voxels a side. False if the GPU refuses.
-  bool update(vtkOpenGLRenderWindow* window, vtkDataArray* array, const glm::ivec3& dimensions,
+  /// real numbers to 0 to 1. False if the GPU refuses.
+  bool update(vtkOpenGLRenderWindow* window, vtkDataArray* array, const ValueLayout& layout,
     Counters& counters);
 
   vtkTextureObject* texture() const { return this->Texture; }
@@ -40,6 +41,7 @@ private:
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkWeakPointer<vtkDataArray> Uploaded;
   unsigned long long UploadedTime = 0;
+  glm::ivec3 UploadedPerTexel{ 0 };
 };
 
 struct GpuTask;

@@ -84,10 +84,8 @@ TEST(SegmentTexture, DrawsLabelsAskedForOrElseThoseThatAreMeant)
 {
   vtkNew<vtkImageData> volume;
   const Grid grid{ { 3, 3, 3 }, glm::dvec3(0.0), glm::dvec3(2.0), glm::dmat3(1.0) };
-  const ValueLayout points{ glm::ivec3(3), glm::dvec3(1.0 / 3.0), glm::dvec3(0.5 / 3.0) };
-  const ValueLayout cells{ glm::ivec3(2), glm::dvec3(0.5), glm::dvec3(0.0) };
   std::string remark;
-  EXPECT_FALSE(requestSegment(volume, grid, points, {}, remark).segmentation.labels);
+  EXPECT_FALSE(requestSegment(volume, {}, remark).segmentation.labels);
   EXPECT_NE(remark.find("carries no segmentation"), std::string::npos);
 
   auto labels = vtkSmartPointer<vtkUnsignedCharArray>::New();
@@ -95,12 +93,22 @@ TEST(SegmentTexture, DrawsLabelsAskedForOrElseThoseThatAreMeant)
   labels->SetNumberOfTuples(27);
   attachSegmentation(volume, { labels, grid, { 4 } });
   remark.clear();
-  SegmentRequest request = requestSegment(volume, grid, points, {}, remark);
+  SegmentRequest request = requestSegment(volume, {}, remark);
   EXPECT_EQ(request.chosen, std::vector<int>{ 4 });
-  EXPECT_EQ(request.points, grid);
-  request = requestSegment(volume, grid, cells, { 7, 8 }, remark);
+  request = requestSegment(volume, { 7, 8 }, remark);
   EXPECT_EQ(request.chosen, (std::vector<int>{ 7, 8 }));
-  EXPECT_EQ(request.points.dimensions, glm::ivec3(2));
-  EXPECT_EQ(request.points.origin, glm::dvec3(1.0)) << "in the cells' middles";
   EXPECT_EQ(remark, "");
+}
+
+TEST(SegmentTexture, HasATexelForEachValue)
+{
+  const Grid grid{ { 3, 3, 3 }, glm::dvec3(0.0), glm::dvec3(2.0), glm::dmat3(1.0) };
+  EXPECT_EQ(gridOfTexels(grid, layoutOf(grid.dimensions, false)), grid);
+  const Grid cells = gridOfTexels(grid, layoutOf(grid.dimensions, true));
+  EXPECT_EQ(cells.dimensions, glm::ivec3(2));
+  EXPECT_EQ(cells.origin, glm::dvec3(1.0)) << "in the cells' middles";
+  const Grid joined = gridOfTexels(grid, coarser(layoutOf(grid.dimensions, false), { 2, 1, 3 }));
+  EXPECT_EQ(joined.dimensions, glm::ivec3(2, 3, 1));
+  EXPECT_LT(glm::distance(joined.origin, glm::dvec3(1.0, 0.0, 2.0)), 1e-12);
+  EXPECT_LT(glm::distance(joined.spacing, glm::dvec3(4.0, 2.0, 6.0)), 1e-12);
 }

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that a volume that is too large for the memory of the GPU gives a message with the memory
-# it needs and the memory there is. VTK's software mapper draws it then, and our mapper draws it
-# again when there is more memory. Images take memory only for the part of the picture that shows
-# the volume.
+# it needs and the memory there is. It is drawn coarser then, bent and in its place. Where not even
+# the deformation fits, VTK's software mapper draws it, and our mapper draws it again when there is
+# more memory. Images take memory only for the part of the picture that shows the volume.
 import re
 
 import numpy
-from brainshift_testing import (assert_says, load_plugin, messages, picture, run_tests,
-                                show_volume, view_along, volume)
+from brainshift_testing import (assert_says, load_plugin, mean_difference, messages, object_pixels,
+                                picture, run_tests, show_volume, use_headlight, view_along, volume)
+from paraview.simple import FreeFormDeformation
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -62,6 +63,82 @@ def test_a_limit_is_told_and_kept():
     assert off[0] < 0.1 * off[1], off
     display.MemoryLimit = total + 1.0
     assert numpy.array_equal(picture(view), deformed)
+
+
+OBLIQUE = [0.0, -0.8, 0.6, 1.0, 0.0, 0.0, 0.0, 0.6, 0.8]
+SPACING = (0.6, 0.5, 1.1)  # so that thick slices are joined last
+ORIGIN = (3.0, -4.0, 5.0)
+
+
+def large(cells, kind=numpy.float32):
+    """Smooth values in 90 x 90 x 64 voxels, unlike on every axis, 0 at the border."""
+    z, y, x = numpy.mgrid[0:64, 0:90, 0:90].astype(float)
+    values = numpy.zeros(x.shape)
+    for i, j, k, width, height in ((40, 50, 30, 10.0, 100.0), (60, 34, 36, 7.0, 130.0)):
+        squared = ((x - i) ** 2 + (y - j) ** 2) / width ** 2 + (z - k) ** 2 / (0.5 * width) ** 2
+        values = numpy.maximum(values, height * numpy.exp(-squared / 2))
+    return volume(values.astype(kind), ORIGIN, SPACING, OBLIQUE, cells=cells), values
+
+
+def joined(voxels, cells):
+    """The means of 2 x 2 x 1 voxels, on the points or in the cells of a grid of their own. Those of
+    whole numbers are rounded."""
+    means = voxels.reshape(64, 45, 2, 45, 2).mean(axis=(2, 4))
+    means = numpy.floor(means + 0.5) if voxels.dtype.kind == "i" else means
+    means = means.astype(voxels.dtype)
+    axes = numpy.reshape(OBLIQUE, (3, 3))
+    first = numpy.asarray(ORIGIN)
+    if not cells:
+        first = first + axes @ (0.5 * numpy.asarray(SPACING) * (1, 1, 0))
+    return volume(means, first, (2 * SPACING[0], 2 * SPACING[1], SPACING[2]), OBLIQUE, cells=cells)
+
+
+def bent_and_shown(source, cells, bends):
+    middle = numpy.asarray(ORIGIN) + numpy.reshape(OBLIQUE, (3, 3)) @ (
+        numpy.asarray(SPACING) * (45, 45, 32))
+    strokes = brainshift.soft(middle, (0.0, 5.0, -4.0), 22.0) if bends else []
+    bent = FreeFormDeformation(Input=source, LatticeDimensions=[6, 6, 6], Samples=4,
+                               Strokes=strokes)
+    view = view_along((-0.6, 0.3, -1.0), middle, 60.0, size=200)
+    use_headlight(view)
+    display = show_volume(bent, view, "Deformed Volume", COLORS, OPACITIES,
+                          association="CELLS" if cells else "POINTS", shade=True)
+    display.SampleDistance = 0.3
+    return view, display
+
+
+def need_of(view, display):
+    """MiB that the volume needs, and its parts, as a limit that allows nothing says."""
+    display.MemoryLimit = 0.01
+    with messages() as said:
+        picture(view)
+    display.MemoryLimit = 0.0
+    return parts(said.text)
+
+
+def test_a_large_volume_is_drawn_coarser_and_in_its_place():
+    """As the means of its voxels, which are drawn in full. On points these fill a smaller box, and
+    so does their lattice; so these are not bent."""
+    for cells, kind, bends in ((True, numpy.float32, True),
+                               (False, numpy.float32, False),
+                               (False, numpy.int16, False)):
+        source, values = large(cells, kind)
+        view, display = bent_and_shown(source, cells, bends)
+        fine = picture(view)
+        total, each = need_of(view, display)
+        display.MemoryLimit = total - each["corrections of it"] - 0.5  # 3/4 of the voxels are more
+        with messages() as said:
+            coarse = picture(view)
+        assert_says(said.text, "drawn coarser: one value for 2 x 2 x 1 voxels")
+        assert "software" not in said.text and "less exactly" not in said.text, said.text
+        assert brainshift.gpu(display)["gpuVoxelsPerTexel"] == 4
+        view, _ = bent_and_shown(joined(values.astype(kind), cells), cells, bends)
+        expected = picture(view)
+        off = [mean_difference(image, expected) for image in (coarse, fine)]
+        print(f"  cells {cells}, {kind.__name__}, bends {bends}: {off[0]:.7f}, whole {off[1]:.7f}; "
+              f"object {object_pixels(fine).mean():.2f}")
+        assert object_pixels(fine).mean() > 0.1
+        assert off[0] < 1e-5 and off[1] > 1e-3, off
 
 
 def test_images_hold_what_can_be_seen():

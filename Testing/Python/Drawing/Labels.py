@@ -3,11 +3,12 @@
 # categories colours each value by its annotation in Deformed Volume and Deformed Slices, also where
 # values are above 2^24, and a file that says it holds labels is drawn by nearest neighbour.
 import gzip
+import re
 import struct
 
 import numpy
-from brainshift_testing import (load_plugin, messages, object_pixels, picture, run_tests, scratch,
-                                show_volume, view_along, volume)
+from brainshift_testing import (assert_says, load_plugin, messages, object_pixels, picture,
+                                run_tests, scratch, show_volume, view_along, volume)
 from slices_testing import flat_view, show_slices
 
 load_plugin()
@@ -105,6 +106,32 @@ def test_categories_are_never_blended():
     assert strange < 0.06, strange  # edges, drawn smoothly
     for label in (1, 9, 2, 200):
         assert colored_pixels(image, COLORS[label]) > 200, label
+
+
+def test_labels_that_are_drawn_coarser_for_want_of_memory_are_not_averaged():
+    fine = labels().repeat(4, 0).repeat(4, 1).repeat(4, 2)
+    bent = bend(volume(fine, (-0.375,) * 3, (0.25,) * 3))
+    view = view_along((0.2, 0.3, -1), MIDDLE, 90.0, half_height=14.0)
+    view.MultiSamples = 0
+    top = max(COLORS)
+    display = show_volume(bent, view, "Deformed Volume", [0, 0, 0, 0, top, 1, 1, 1],
+                          [0, 0, 0.5, 0, 0.5, 1, 0.5, 0, top, 1, 0.5, 0])
+    interpret_as_categories(display, COLORS)
+    whole = picture(view)
+    display.MemoryLimit = 0.01
+    with messages() as said:
+        picture(view)
+    total, corrections = (float(re.search(words, said.text).group(1)) for words in (
+        r"needs ([\d.]+) MiB", r"corrections of it ([\d.]+)"))
+    display.MemoryLimit = total - corrections - 0.5
+    with messages() as said:
+        coarse = picture(view)
+    assert_says(said.text, "one value for 2 x 2 x 2 voxels")
+    strange = [strange_pixels(image, COLORS.values()) for image in (whole, coarse)]
+    print(f"  of no label: {100 * strange[0]:.2f} %, coarser {100 * strange[1]:.2f} %")
+    assert strange[1] < 0.06, strange
+    for label in (1, 9, 2, 200):
+        assert colored_pixels(coarse, COLORS[label]) > 200, label
 
 
 def test_labels_of_any_size_stay_apart():
