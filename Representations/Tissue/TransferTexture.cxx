@@ -52,7 +52,7 @@ std::vector<std::uint8_t> coarserBytes(
   std::vector<std::uint8_t> coarse(static_cast<std::size_t>(Channels) * side.x * side.y * side.z);
   for (int c = 0; c < Channels; ++c)
   {
-    averageVoxels(
+    joinVoxels<MeanNumber>(
       layout, [&](vtkIdType voxel) { return static_cast<double>(bytes[Channels * voxel + c]); },
       [&](vtkIdType texel, double mean) {
         coarse[Channels * texel + c] = static_cast<std::uint8_t>(mean + 0.5);

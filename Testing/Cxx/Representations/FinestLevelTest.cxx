@@ -22,7 +22,7 @@ std::vector<double> joined(const ValueLayout& layout, const std::vector<double>&
 {
   const glm::ivec3& side = layout.dimensions;
   std::vector<double> texels(static_cast<std::size_t>(side.x) * side.y * side.z);
-  averageVoxels(
+  joinVoxels<MeanNumber>(
     layout, [&](vtkIdType voxel) { return values[voxel]; },
     [&](vtkIdType texel, double mean) { texels[texel] = mean; });
   return texels;
@@ -89,7 +89,7 @@ TEST(FinestLevel, HoldsTheMostFrequentLabel)
   const ValueLayout layout = coarser(layoutOf({ 4, 2, 1 }, false), { 2, 2, 1 });
   const std::vector<double> labels{ 9.0, 2.0, 5.0, 3.0, 9.0, 4.0, 3.0, 5.0 };
   std::vector<double> texels(2);
-  mostFrequentVoxels(
+  joinVoxels<MostFrequentNumber>(
     layout, [&](vtkIdType voxel) { return labels[voxel]; },
     [&](vtkIdType texel, double number) { texels[texel] = number; });
   EXPECT_EQ(texels[0], 9.0);
