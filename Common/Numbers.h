@@ -14,10 +14,28 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 #include <vector>
 
 namespace brainshift
 {
+#ifdef __cpp_lib_to_chars
+using std::from_chars;
+#else
+///@{
+/** As std::from_chars, which libc++ has for numbers with a point from version 20 on only. */
+BRAINSHIFT_COMMON_EXPORT std::from_chars_result from_chars(
+  const char* first, const char* last, double& number);
+BRAINSHIFT_COMMON_EXPORT std::from_chars_result from_chars(
+  const char* first, const char* last, float& number);
+template <typename Integer, typename = std::enable_if_t<std::is_integral_v<Integer>>>
+std::from_chars_result from_chars(const char* first, const char* last, Integer& number)
+{
+  return std::from_chars(first, last, number);
+}
+///@}
+#endif
+
 /**
  * Takes the number off with which a text begins. None, and the text stays as it was, if it begins
  * with no number or with one that the type cannot hold.
@@ -28,7 +46,7 @@ std::optional<Number> takeNumber(std::string_view& text)
   const bool hasPlus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   Number number{};
   const auto [last, error] =
-    std::from_chars(text.data() + (hasPlus ? 1 : 0), text.data() + text.size(), number);
+    from_chars(text.data() + (hasPlus ? 1 : 0), text.data() + text.size(), number);
   if (error != std::errc())
   {
     return std::nullopt;

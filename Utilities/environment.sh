@@ -78,10 +78,12 @@ apt_install() {
     rm -f /var/cache/apt/archives/partial/*.deb
 }
 
-# missing_packages DEBIAN_NUMBER: packages-COMMAND.txt lists what one command needs beside the others.
+# missing_packages DEBIAN_NUMBER: packages-COMMAND.txt lists what one command needs beside the others,
+# and packages-portable.txt what test --portable does.
 missing_packages() {
   local lists=("$checkout"/Utilities/packages-{common,"debian-$1"}.txt) wanted
   local own=$checkout/Utilities/packages-${command:-}.txt
+  [[ "${command:-} ${arguments[0]:-}" != "test --portable" ]] || own=$checkout/Utilities/packages-portable.txt
   [[ ! -f $own ]] || lists+=("$own")
   mapfile -t wanted < <(sed 's/#.*//' "${lists[@]}" | tr -s '[:space:]' '\n' | grep . | sort -u)
   comm -23 <(printf '%s\n' "${wanted[@]}") <(

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace brainshift
 {
@@ -351,22 +352,40 @@ struct TrilinearBox
   }
 };
 
-// Proves a box, or its halves one by one. `boxes` counts down what may still be tried.
+// Proves a box, or its halves one by one. `boxes` counts down what may still be tried. Open boxes
+// are on the heap: there may be thousands, and threads of Windows have a stack of 1 MB.
 template <typename Box>
-bool holds(Box& box, int axis, float limit, int& boxes)
+bool holds(const Box& whole, int axis, float limit, int& boxes)
 {
-  if (leastOf(box.columns()) >= limit)
+  struct Open
+  {
+    Box box;
+    int axis;
+  };
+  if (leastOf(whole.columns()) >= limit)
   {
     return true;
   }
-  if (--boxes < 0 || box.determinantAtCorner(false) < limit ||
-    box.determinantAtCorner(true) < limit)
+  std::vector<Open> open{ { whole, axis } };
+  while (!open.empty())
   {
-    return false;
+    Open lower = open.back();
+    if (leastOf(lower.box.columns()) >= limit)
+    {
+      open.pop_back();
+      continue;
+    }
+    if (--boxes < 0 || lower.box.determinantAtCorner(false) < limit ||
+      lower.box.determinantAtCorner(true) < limit)
+    {
+      return false;
+    }
+    const int next = (lower.axis + 1) % 3;
+    open.back() = { lower.box.split(lower.axis), next };
+    lower.axis = next;
+    open.push_back(lower);
   }
-  Box upper = box.split(axis);
-  const int next = (axis + 1) % 3;
-  return holds(box, next, limit, boxes) && holds(upper, next, limit, boxes);
+  return true;
 }
 
 template <typename Box>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Files/PlainFile.h"
 
+#include "Formats/Files/SystemPath.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -13,7 +15,7 @@ namespace brainshift
 void requirePlainFile(const std::string& fileName)
 {
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(fileName, error);
+  const std::filesystem::file_status status = std::filesystem::status(systemPath(fileName), error);
   if (!std::filesystem::exists(status))
   {
     throw Problem("does not exist");
@@ -31,7 +33,7 @@ void requirePlainFile(const std::string& fileName)
 bool isPlainFile(const std::string& fileName)
 {
   std::error_code error;
-  return std::filesystem::is_regular_file(fileName, error);
+  return std::filesystem::is_regular_file(systemPath(fileName), error);
 }
 
 std::string readBeginning(const std::string& fileName, std::size_t bytes)
@@ -39,7 +41,7 @@ std::string readBeginning(const std::string& fileName, std::size_t bytes)
   std::string text;
   if (isPlainFile(fileName))
   {
-    std::ifstream file(fileName, std::ios::binary);
+    std::ifstream file(systemPath(fileName), std::ios::binary);
     text.resize(bytes);
     file.read(text.data(), static_cast<std::streamsize>(bytes));
     text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
@@ -49,7 +51,7 @@ std::string readBeginning(const std::string& fileName, std::size_t bytes)
 
 std::string fileBytes(const std::string& fileName, std::uint64_t offset, std::uint64_t count)
 {
-  std::ifstream stream(fileName, std::ios::binary);
+  std::ifstream stream(systemPath(fileName), std::ios::binary);
   std::string bytes(count, '\0');
   if (!stream.seekg(static_cast<std::streamoff>(offset)) ||
     !stream.read(bytes.data(), static_cast<std::streamsize>(count)))
@@ -71,7 +73,7 @@ std::string withoutMark(std::string text)
 std::string readPlainText(const std::string& fileName, std::size_t limit)
 {
   requirePlainFile(fileName);
-  std::ifstream file(fileName, std::ios::binary | std::ios::ate);
+  std::ifstream file(systemPath(fileName), std::ios::binary | std::ios::ate);
   const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
   if (size >= 0 && static_cast<std::size_t>(size) > limit)
   {

@@ -2,6 +2,7 @@
 #include "Formats/Files/WholeFile.h"
 
 #include "Common/Problem.h"
+#include "Formats/Files/SystemPath.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -29,7 +30,8 @@ namespace fs = std::filesystem;
 fs::path nameBeside(const fs::path& file)
 {
   const std::string number = std::to_string(std::random_device()());
-  return file.parent_path() / (".part-" + number + "-" + file.filename().string());
+  fs::path name = ".part-" + number + "-";
+  return file.parent_path() / (name += file.filename());
 }
 
 // An existing file must be one that can be replaced.
@@ -55,7 +57,11 @@ void requireReplaceable(const fs::path& file)
 void sync(const fs::path& file)
 {
   errno = 0;
-  std::FILE* opened = std::fopen(file.string().c_str(), "r+b");
+#ifdef _WIN32
+  std::FILE* opened = _wfopen(file.c_str(), L"r+b");
+#else
+  std::FILE* opened = std::fopen(file.c_str(), "r+b");
+#endif
   if (!opened)
   {
     throw Problem(lastSystemError());
@@ -92,14 +98,18 @@ std::string lastSystemError()
 void writeWhole(const std::string& fileName, const std::function<void(const std::string&)>& write)
 {
   std::error_code error;
-  fs::path file = fs::weakly_canonical(fileName, error); // a link stays a link
-  file = error ? fs::path(fileName) : file;
+  fs::path file = systemPath(fileName);
+  if (fs::is_symlink(file, error)) // a link stays a link
+  {
+    const fs::path target = fs::weakly_canonical(file, error);
+    file = error ? file : target;
+  }
   const fs::path beside = nameBeside(file);
   try
   {
     withBeginning("File " + fileName + " cannot be written: ", [&] {
       requireReplaceable(file);
-      write(beside.string());
+      write(nameOfPath(beside));
       sync(beside);
       replace(file, beside);
     });
@@ -115,7 +125,7 @@ void writeWholeStream(const std::string& fileName, const std::function<void(std:
 {
   writeWhole(fileName, [&](const std::string& beside) {
     errno = 0;
-    std::ofstream file(beside, std::ios::binary);
+    std::ofstream file(systemPath(beside), std::ios::binary);
     file.imbue(std::locale::classic());
     write(file);
     file.close();

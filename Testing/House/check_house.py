@@ -16,11 +16,12 @@ import named_formats
 import named_tools
 import similarities
 import sizes
+import systems
 from tree import Tree
 
 CHECKS = {check.__name__: check
           for module in (includes, sizes, listed, forms, guards, named_formats, named_tools,
-                        similarities)
+                        similarities, systems)
           for check in module.CHECKS}
 
 

@@ -7,13 +7,13 @@ import re
 from tree import folder_of
 
 BUILT = ("Common", "Formats", "Filters", "Representations", "Widgets", "Interaction", "Panel",
-         "Plugin", "Testing/Cxx")
+         "Plugin", "Testing/Cxx", "Testing/Portable")
 
 
 def _named_paths(tree):
-    """Every word of every CMakeLists.txt, as a path from the root of the checkout."""
+    """Every word of every file of CMake, as a path from the root of the checkout."""
     named = set()
-    for path in tree.ending("CMakeLists.txt"):
+    for path in tree.ending("CMakeLists.txt", ".cmake"):
         text = re.sub(r"#.*", "", tree.text(path))
         for word in re.findall(r"[^\s()\"]+", text):
             word = word.replace("${PROJECT_SOURCE_DIR}/", "/")

@@ -49,7 +49,8 @@ def house():
     files["Representations/vtkDraw.cxx"] = '#include "vtkBend.h"\nvoid draw(int a, int b) {}\n'
     files["Representations/CMakeLists.txt"] = "set(classes vtkDraw)\nset(shaders Rays/rays.frag)\n"
     files["Shaders/Rays/rays.frag.glsl"] = "void main() {}\n"
-    files["CMakeLists.txt"] = "project(BrainShift VERSION 1.2.3)\n"
+    files["CMakeLists.txt"] = (
+        "project(BrainShift VERSION 1.2.3)\nset(CMAKE_CXX_EXTENSIONS OFF)\n")
     files["CITATION.cff"] = "version: 1.2.3\n"
     files["CHANGELOG.md"] = "# Changelog\n\n## Unreleased\n\n## 1.2.3 - 2026-01-02\n"
     files["Testing/Python/CMakeLists.txt"] = "set(python_tests Drawing/Pick)\n"
@@ -150,6 +151,14 @@ BREAKS = [
     ("no_similarity_is_named_elsewhere", "Python/brainshift/registering.py",
      'def refine(similarity="waves"):\n    pass\n', None),
     ("every_room_says_what_it_is_for", "Filters/Traces/README.md", None, None),
+    ("no_system_is_called_elsewhere", "Filters/vtkBend.cxx", "#include <unistd.h>\n", None),
+    ("no_system_is_called_elsewhere", "Filters/vtkBend.cxx",
+     "void f(std::time_t now, std::tm* parts)\n{\n  localtime_r(&now, parts);\n}\n", None),
+    ("no_extension_of_a_compiler_is_used", "Filters/vtkBend.cxx",
+     "int f(int a)\n{\n  return __builtin_popcount(a);\n}\n", None),
+    ("no_extension_of_a_compiler_is_used", "Filters/CMakeLists.txt", "project(Bend)\n", None),
+    ("no_integer_is_long", "Filters/vtkBend.cxx", "long size(const std::string& file);\n", None),
+    ("no_integer_is_long", "Filters/vtkBend.cxx", "unsigned long bytes = 0;\n", None),
 ]
 
 

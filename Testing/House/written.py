@@ -18,8 +18,9 @@ from tree import Tree
 #: Names such as numberIn are no words.
 JOINED_WORDS = r"\w*[a-z][A-Z]\w*"
 
-#: GLSL's inout, ParaView's level of detail, the target registration error, and a name of ITK's.
-OUR_WORDS = "te,inout,lod,nome,tranform,tre,unser"
+#: GLSL's inout, ParaView's level of detail, the target registration error, Mesa's zink, and a name
+#: of ITK's.
+OUR_WORDS = "te,inout,lod,nome,tranform,tre,unser,zink"
 
 
 #: The major version of LLVM whose answers count, and the exit status of a check that is skipped.

@@ -10,11 +10,11 @@ unset CTEST_PARALLEL_LEVEL
 
 # A ParaView and tools that write down how they are called.
 export ParaView_DIR=$folder/paraview/lib/cmake/paraview-5.13
-mkdir -p "$ParaView_DIR" "$folder/paraview/bin" "$folder"/checkout/{build/paraview-5.13{,-asan},.ci}
+mkdir -p "$ParaView_DIR" "$folder/paraview/bin" "$folder"/checkout/{build/{paraview-5.13{,-asan,-clang},portable-{libcxx,windows}},.ci}
 echo 'set(PACKAGE_VERSION "5.13.2")' >"$ParaView_DIR/paraview-config-version.cmake"
 echo 'set(PARAVIEW_QT_MAJOR_VERSION "6")' >"$ParaView_DIR/paraview-config.cmake"
 export called=$folder/called
-for program in pvpython cmake ninja ccache xvfb-run python3; do
+for program in pvpython cmake ctest ninja ccache xvfb-run python3; do
   # shellcheck disable=SC2016 # the program expands it
   printf '#!/bin/sh\necho "%s $CTEST_PARALLEL_LEVEL $*" >>"$called"\n' "$program" >"$folder/paraview/bin/$program"
   chmod +x "$folder/paraview/bin/$program"
@@ -24,7 +24,7 @@ launcher=$folder/checkout/brainshift
 
 # asks WORDS WANTED: ./brainshift WORDS calls a program with WANTED among its arguments.
 asks() {
-  rm -f "$called"
+  rm -f "$called" "$folder"/checkout/build/*/configured-with
   # shellcheck disable=SC2086 # words
   "$launcher" $1 >"$folder/said" 2>&1 || { cat "$folder/said" && exit 1; }
   grep -qF -- "$2" "$called" || { echo "$1 does not call: $2" && cat "$called" && exit 1; }
@@ -49,6 +49,11 @@ asks "test" "xvfb-run $(nproc) "
 asks "test -j5 -R House" "--output-on-failure -j5 -R House"
 asks "test --quick -j1" "--output-on-failure -L ^quick\$ -j1"
 asks "test --sanitize" "--output-on-failure -L ^cxx\$"
+for words in "Portable -B $folder/checkout/build/portable-windows" "-stdlib=libc++" \
+  "build/portable-libcxx --output-on-failure -R Fit" "-DCMAKE_CXX_COMPILER=clang++ -DCMAKE_COMPILE_WARNING_AS_ERROR=ON" \
+  "build/paraview-5.13-clang --output-on-failure -L ^cxx\$ -R Fit"; do
+  asks "test --portable -R Fit" "$words"
+done
 asks "lint" "lint.py $folder/checkout $folder/checkout/build/paraview-5.13"
 asks "lint spelling format" "paraview-5.13 spelling format"
 builds lint 1
