@@ -393,9 +393,15 @@ def open_scene(path, folder=None, outside=False):
 
 
 def open_in_window(path):
-    """`open_scene` for File > Open, which shows warnings and errors."""
-    try:
-        open_scene(path)
-    except ValueError as problem:
-        warnings.warn(str(problem), stacklevel=1)
+    """`open_scene` for File > Open: what it says goes to Output Messages."""
+    from vtkmodules.vtkCommonCore import vtkOutputWindow
+
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        try:
+            open_scene(path)
+        except ValueError as problem:
+            vtkOutputWindow.GetInstance().DisplayErrorText(f"{problem}\n")
+    for warning in said:
+        vtkOutputWindow.GetInstance().DisplayWarningText(f"{warning.message}\n")
     return ""

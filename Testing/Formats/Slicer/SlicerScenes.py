@@ -14,8 +14,10 @@ from brainshift_testing import data, load_plugin, output, run_tests, scratch
 from outside_testing import FLIP, itk_text, mapped_outside, of_itk_text, write
 from slicer_testing import HALF_TURN, STRETCH, TURN, Written, of_rows
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersHybrid import vtkGridTransform
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -228,6 +230,38 @@ def test_volumes_below_bending_transforms():
     assert numpy.linalg.norm(rest - right, axis=1).max() > 1.0
 
 
+def test_volumes_below_a_stretch():
+    scene = Written("stretched")
+    values = numpy.zeros((30, 30, 30), numpy.int16)
+    slicer.write_nrrd(scene.path("head.nrrd"), values, (-60, -60, -60), numpy.diag((4.0,) * 3))
+    scene.linear("Affine", TURN @ STRETCH)
+    scene.stored("Volume", "head", "head.nrrd", above="Affine")
+    found = opened(scene.written())
+    assert not found.notes, found.notes
+    bent = found.volumes["head"]
+    rows = numpy.reshape(bent.Input.GetPropertyValue("WorldFromFile"), (4, 4))
+    local = numpy.random.default_rng(7).uniform(-56, 56, (100, 3))
+    moved = brainshift.deformed_from_rest(bent, of_rows(rows, local))
+    away = numpy.linalg.norm(moved - of_rows(TURN @ STRETCH, local), axis=1).max()
+    assert away < 0.05, away
+    assert numpy.allclose(rows[:3, :3] @ rows[:3, :3].T, numpy.eye(3)), "a rotation"
+
+
+def test_states_keep_what_was_opened():
+    scene = Written("kept")
+    slicer.write_grid(scene.path("grid.nrrd"), VECTORS, "modeling")
+    scene.stored("GridTransform", "Grid", "grid.nrrd")
+    scene.linear("Inner", TURN, above="Grid")
+    scene.landmarks("Kept", WORLD, above="Inner")
+    opened(scene.written())
+    simple.SaveState(scratch("kept.pvsm"))
+    simple.Disconnect()
+    simple.Connect()
+    load_plugin()
+    simple.LoadState(scratch("kept.pvsm"))
+    assert_there(simple.FindSource("Kept"), as_slicer(of_rows(TURN, WORLD), VECTORS))
+
+
 def test_segmentations_and_label_maps():
     layers = numpy.zeros((9, 10, 11), numpy.uint8)
     layers[2:5, 3:6, 4:7] = 1
@@ -245,6 +279,19 @@ def test_segmentations_and_label_maps():
                   lambda index: of_rows(TURN, index * FLIP))
     names = output(found.segmentations["Seg"]).GetFieldData().GetAbstractArray("LabelNames")
     assert names.GetValue(0) == "Tümor"
+
+
+def write_said_vtp(mesh, path):
+    """A surface whose file says that it is in LPS, as Slicer writes it."""
+    said, word = mesh.NewInstance(), vtkStringArray()
+    said.ShallowCopy(mesh)
+    word.SetName("SPACE")
+    word.InsertNextValue("LPS")
+    said.GetFieldData().AddArray(word)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(said)
+    writer.SetFileName(path)
+    assert writer.Write()
 
 
 def test_models_in_both_axes():
@@ -265,15 +312,17 @@ def test_models_in_both_axes():
         first, _, rest = file.read().split(b"\n", 2)
     with open(scene.path("said.vtk"), "wb") as file:  # the file's word counts, not the scene's
         file.write(b"\n".join((first, b"3D Slicer output. SPACE=LPS", rest)))
+    write_said_vtp(output(lps), scene.path("said.vtp"))
     scene.linear("Placed", TURN)
     for name, axes in (("lps.vtk", "LPS"), ("ras.vtk", "RAS"), ("lps.vtp", "LPS"),
+                       ("said.vtp", "RAS"),
                        ("lps.stl", "LPS"), ("lps.ply", "LPS"), ("said.vtk", "RAS"),
                        ("lps.obj", "RAS")):
         scene.stored("Model", name, name, above="Placed", storage={"coordinateSystem": axes})
     scene.stored("Model", "old.vtk", "ras.vtk", old=True)
     found = opened(scene.written())
     assert not found.notes, found.notes
-    for name in ("lps.vtk", "ras.vtk", "lps.vtp", "lps.ply", "said.vtk"):
+    for name in ("lps.vtk", "ras.vtk", "lps.vtp", "lps.ply", "said.vtk", "said.vtp"):
         assert_there(found.models[name], of_rows(TURN, right))
     assert_there(found.models["old.vtk"], right)
     assert_there(found.models["lps.obj"],

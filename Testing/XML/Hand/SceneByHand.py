@@ -27,9 +27,11 @@ def a_scene_opens():
     scene.stored("Volume", "Head", "head.nrrd", above="Turn")
     scene.landmarks("Marks", PLACES, above="Turn")
     scene.node("Sequence", "S", name="S")
+    hand.forget_messages()
     hand.open_file(scene.written())
     window.until(lambda: "Marks" in names() and "Head" in names(), "the scene opens")
     assert names() == ["Head", "Marks", "Marks at rest"], names()
+    assert any("Sequence 'S' is not opened" in line for line in hand.messages()[0])
     found = simple.FindSource("Marks")
     places = vtk_to_numpy(output(found).GetPoints().GetData())
     assert numpy.abs(places - of_rows(TURN, PLACES)).max() < 1e-3
@@ -39,8 +41,9 @@ def no_scene_leaves_all_as_it_was():
     before = names()
     with open(scratch("damaged.mrml"), "w") as file:
         file.write("<MRML><Volume ")
+    hand.forget_messages()
     hand.open_file(scratch("damaged.mrml"))
-    hand.wait(500)
+    window.until(lambda: "no good XML" in " ".join(hand.messages()[0]), "the reason is told")
     assert names() == before, names()
 
 
