@@ -80,7 +80,7 @@ def _unpack(bundle, entry, path):
 
 def unpack(path, folder):
     """Unpacks a bundle. Returns the path of its scene, and sentences on what was left out."""
-    notes, scenes = [], []
+    notes, scenes, taken = [], [], set()
     try:
         opened = zipfile.ZipFile(path)
     except _FAULTS as problem:
@@ -98,6 +98,9 @@ def unpack(path, folder):
             try:
                 _require_good(entry, name)
                 target = os.path.join(folder, *name.replace("\\", "/").split("/"))
+                if target in taken:
+                    raise SceneProblem("is there twice; the first counts")
+                taken.add(target)
                 _unpack(bundle, entry, target)
             except _FAULTS as problem:
                 subject = "it " if isinstance(problem, SceneProblem) else ""

@@ -46,6 +46,9 @@ _MODEL_READERS = {
 #: (mm).
 _SIDES, _GOOD_MM = (19, 37, 73), 0.05
 
+#: What a point may miss its position by without a word, and when it has none (mm).
+_MISS_MM, _FAR_MM = 1e-3, 100.0
+
 #: The first bytes of a model's file, where it may name its axes.
 _HEADER_BYTES = 4096
 
@@ -231,7 +234,7 @@ class _Opening:
 
     def moved(self, node, links, source):
         """Points or a surface below a chain of transforms, each point by the exact map."""
-        from paraview import servermanager, simple
+        from paraview import servermanager
 
         links = merged(links)
         if not links:
@@ -247,15 +250,20 @@ class _Opening:
         report.UpdatePropertyInformation()
         problem = report.GetProperty("Problem").GetElement(0)
         if problem:
-            simple.Delete(source)
+            _delete(source)
             raise SceneProblem(f"cannot be moved: {problem}")
+        moved = _taken(source, report, "Backward")
+        miss = _largest_miss(source, _taken(moved, report, "Forward"))
+        if not miss < _FAR_MM:  # also rejects NaN
+            del moved
+            _delete(source)
+            raise SceneProblem("has points that its transforms take to no position")
+        if miss > _MISS_MM:
+            self.found.notes.append(f"{node.words} has points where its transforms fold; they miss "
+                                    f"their positions by up to {miss:.2g} mm.")
         name = free_name(node.name)
         manager.RegisterProxy("brainshift_transforms", name, report)  # so that states keep it
-        moved = servermanager.misc.TransformPoints(Input=source, Direction="Backward")
-        moved.SMProxy.GetProperty("Transform").SetProxy(0, report)
-        moved.SMProxy.UpdateVTKObjects()
         manager.RegisterProxy("sources", name, moved.SMProxy)
-        moved.UpdatePipeline()
         return moved
 
     # Transforms ----------------------------------------------------------------------------------
@@ -296,6 +304,38 @@ class _Opening:
                 self.found.notes.append(f"{node.words} is not opened: {subject}{problem}.")
         self.found.notes[:0] = self.scene.notes
         self.found.notes.extend(self.transforms.notes)
+
+
+def _delete(source):
+    """Deletes a source, and the reader before it."""
+    from paraview import simple
+
+    reader = source.Input if source.SMProxy.GetProperty("Input") else None
+    simple.Delete(source)
+    if reader is not None:
+        simple.Delete(reader)
+
+
+def _taken(source, report, direction):
+    """The points of a source, taken through a transform; in no pipeline yet."""
+    from paraview import servermanager
+
+    taken = servermanager.misc.TransformPoints(Input=source, Direction=direction)
+    taken.SMProxy.GetProperty("Transform").SetProxy(0, report)
+    taken.SMProxy.UpdateVTKObjects()
+    taken.UpdatePipeline()
+    return taken
+
+
+def _largest_miss(source, back):
+    """The largest distance of points from where the way there and back leaves them (mm)."""
+    import numpy
+    from paraview import servermanager
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    there, again = (vtk_to_numpy(servermanager.Fetch(each).GetPoints().GetData())
+                    for each in (source, back))
+    return numpy.linalg.norm(there - again, axis=1).max()
 
 
 def _hold_fields(report):

@@ -141,6 +141,29 @@ def test_splines_nested_and_inverse():
     assert_there(found.points["inverse points"], of_rows(TURN, local))
 
 
+def test_points_without_a_position_are_said():
+    scene = Written("folded")
+    holes, folds = VECTORS.copy(), slicer.grid_vectors(size=40.0)
+    holes[5:12] = numpy.nan
+    for name, vectors in (("holes", holes), ("folds", folds)):
+        slicer.write_grid(scene.path(f"{name}.nrrd"), vectors, "resampling")
+        scene.stored("GridTransform", name, f"{name}.nrrd")
+        scene.landmarks(f"in {name}", WORLD, above=name)
+    simple.SaveData(scene.path("ball.vtp"), simple.Sphere(Radius=30))
+    scene.stored("Model", "ball in holes", "ball.vtp", above="holes",
+                 storage={"coordinateSystem": "LPS"})
+    found = opened(scene.written())
+    assert "in holes" not in found.points and not found.models, found
+    left = [name for name, _ in simple.GetSources() if "in holes" in name]
+    assert not left, left
+    assert sum("in holes' is not opened" in note for note in found.notes) == 2, found.notes
+    # A fold without a solution is told, or each point is where the grid takes it back.
+    back = as_slicer(positions(found.points["in folds"]), folds) if "in folds" in (
+        found.points) else WORLD + 1.0
+    assert any("'in folds'" in note for note in found.notes) or (
+        numpy.abs(back - WORLD).max() < NEAR), found.notes
+
+
 def test_slicers_own_transforms():
     folder = data("transforms", "slicer-transforms")
     scene = Written("own", version="Slicer4.4.0")
@@ -486,6 +509,10 @@ def test_hostile_bundles():
     found = opened(bundle("link.mrb", (link, "/etc/passwd")))
     assert len(found.notes) == 1 and "is a link" in found.notes[0]
     assert not opened(bundle("good.mrb", ("s/zeros", bytes(10**7)))).notes, "zeros pack well"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of zipfile
+        found = opened(bundle("twice.mrb", ("s/a", "1"), ("s/a", "2")))
+    assert len(found.notes) == 1 and "twice" in found.notes[0], found.notes
     empty = scratch("empty.mrb")
     with zipfile.ZipFile(empty, "w") as file:
         file.writestr("s/readme.txt", "x")
