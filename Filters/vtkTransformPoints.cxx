@@ -4,13 +4,17 @@
 #include "Common/Guard.h"
 #include "Common/Portions.h"
 #include "Common/Problem.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Formats/Transforms/PointTransform.h"
 #include "vtkTransformReader.h"
 
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
@@ -22,6 +26,28 @@ brainshiftGuardRequestsMacro(vtkTransformPoints);
 namespace
 {
 constexpr vtkIdType PointsAtLeast = 256; // for a thread: about 0.1 ms
+constexpr double StepMm = 0.1;           // between the points that a derivative is taken from
+
+glm::dvec3 tupleOf(vtkDataArray* array, vtkIdType index)
+{
+  double tuple[3];
+  array->GetTuple(index, tuple);
+  return { tuple[0], tuple[1], tuple[2] };
+}
+
+// The derivatives of a map at a point, from differences.
+template <typename Map>
+glm::dmat3 jacobianOf(const Map& map, const glm::dvec3& from)
+{
+  glm::dmat3 jacobian;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::dvec3 step(0.0);
+    step[axis] = StepMm / 2.0;
+    jacobian[axis] = (map(from + step) - map(from - step)) / StepMm;
+  }
+  return jacobian;
+}
 }
 
 vtkTransformPoints::vtkTransformPoints() = default;
@@ -55,14 +81,25 @@ int vtkTransformPoints::RequestData(
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(count);
   const PointTransform& chain = this->Transform->GetChain();
+  const auto moved = [&](const glm::dvec3& from) {
+    return this->Direction == Forward ? mapped(chain, from) : mappedBack(chain, from);
+  };
+  vtkDataArray* normals = input->GetPointData()->GetNormals();
+  vtkNew<vtkDoubleArray> turned;
+  turned->SetNumberOfComponents(3);
+  turned->SetNumberOfTuples(normals ? count : 0);
   const auto move = [&](vtkIdType first, vtkIdType last) {
     for (vtkIdType i = first; i < last; ++i)
     {
       glm::dvec3 from;
       input->GetPoint(i, &from.x);
-      const glm::dvec3 to =
-        this->Direction == Forward ? mapped(chain, from) : mappedBack(chain, from);
+      const glm::dvec3 to = moved(from);
       points->SetPoint(i, &to.x);
+      if (normals)
+      {
+        const glm::dvec3 normal = turnedNormal(jacobianOf(moved, from), tupleOf(normals, i));
+        turned->SetTuple(i, &normal.x);
+      }
     }
   };
   if (!forPortions({ this }, count, PointsAtLeast, move))
@@ -72,6 +109,12 @@ int vtkTransformPoints::RequestData(
   else if (count > 0)
   {
     output->SetPoints(points);
+    if (normals)
+    {
+      turned->SetName(normals->GetName());
+      output->GetPointData()->SetNormals(turned);
+    }
+    output->GetCellData()->SetNormals(nullptr); // those of the flat cells are made from the points
   }
   return 1;
 }

@@ -4,10 +4,11 @@
  * @brief   moves landmarks and traced points with the transform of a registration program
  *
  * Input: points in mm, world axes. They are mapped by the file's own map, without a lattice or a
- * field in between. All arrays pass as they are, normals and vectors too.
+ * field in between. Normals of points turn with the surface, normals of cells are left out. All
+ * other arrays pass as they are, vectors too.
  *
  * The filter runs on all cores, reports progress and can be aborted. It belongs to no menu:
- * `brainshift.map_points` uses it.
+ * `brainshift.map_points` and `brainshift.open_scene` use it.
  */
 #ifndef vtkTransformPoints_h
 #define vtkTransformPoints_h

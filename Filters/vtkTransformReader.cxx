@@ -123,6 +123,10 @@ const std::string& vtkTransformReader::Load()
   {
     reverseXY(state.Chain);
   }
+  if (this->FieldsBetween == Held)
+  {
+    holdFields(state.Chain);
+  }
   state.ReadAt = this->GetMTime();
   return state.Problem;
 }
@@ -366,6 +370,7 @@ void vtkTransformReader::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "FixedImage: " << this->FixedImage << "\n"
      << indent << "MovingImage: " << this->MovingImage << "\n"
      << indent << "MatrixProgram: " << this->MatrixProgram << "\n"
+     << indent << "FieldsBetween: " << (this->FieldsBetween == Held ? "Held" : "Linear") << "\n"
      << indent << "World: " << (this->World == RAS ? "RAS" : "LPS") << "\n"
      << indent << "Direction: " << (this->Direction == Forward ? "Forward" : "Backward") << "\n"
      << indent << "OutputDirection: " << (this->OutputDirection == Forward ? "Forward" : "Backward")

@@ -73,6 +73,18 @@ public:
   vtkGetMacro(MovingImage, std::string);
   ///@}
 
+  enum FieldsBetweenType
+  {
+    Linear = 0, ///< as in ITK; half a cell outside its points a field moves nothing
+    Held = 1,   ///< as 3D Slicer shows them: cubic; outside its points a field moves as at its edge
+  };
+
+  ///@{
+  /** How displacements between the points of a field are found. Default Linear. */
+  vtkSetClampMacro(FieldsBetween, int, Linear, Held);
+  vtkGetMacro(FieldsBetween, int);
+  ///@}
+
   enum MatrixProgramType
   {
     UnknownProgram = 0, ///< FSL if an image is named; else such a file is an error
@@ -208,6 +220,7 @@ private:
   std::string FixedImage;
   std::string MovingImage;
   int MatrixProgram = UnknownProgram;
+  int FieldsBetween = Linear;
   int World = RAS;
   int Direction = Backward;
   int OutputDirection = Forward;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BrainShiftBehavior.h"
 
+#include "Interaction/Cases/SlicerScenes.h"
 #include "Interaction/Displays/EvidenceSwitch.h"
 #include "Interaction/Landmarks/LandmarkMarks.h"
 #include "Interaction/ToolCarrier.h"
@@ -96,6 +97,7 @@ void BrainShiftBehavior::onStartup()
   new brainshift::UndoneLayouts(this);
   new brainshift::WaitingEditors(this);
   new brainshift::ComparisonLegend(this);
+  new brainshift::SlicerScenes(this);
   new brainshift::EvidenceSwitch(this);
   this->Hand = new brainshift::ToolCarrier(this);
   new brainshift::ToolKeys(this->Hand);

@@ -160,26 +160,52 @@ def field_files(width):
         return stage.side_by_side(views)
 
 
+def _landmark_table(file):
+    """Writes landmarks of a coronal plane as a table."""
+    steps = [step * LANDMARKS_MM for step in range(-3, 4)]
+    places = [(FOCUS[0] + x, stage.CORTEX[1], FOCUS[2] + z) for x in steps for z in steps]
+    with open(file, "w", encoding="utf-8") as table:
+        print("x,y,z", *(f"{x},{y},{z}" for x, y, z in places), sep="\n", file=table)
+
+
+def _show_landmarks(points, made):
+    balls = simple.Glyph(Input=_moved_forward(points), GlyphType="Sphere",
+                         GlyphMode="All Points", ScaleArray=["POINTS", "No scale array"])
+    balls.ScaleFactor = 3.0
+    stage.show_surface(balls, made, stage.CYAN)
+
+
+def slicer_scene(width):
+    """A slice and landmarks at rest, and as a scene brings them that was saved of the bent one."""
+    import brainshift
+    side = width // 2
+    with tempfile.TemporaryDirectory() as folder:
+        table, scene = os.path.join(folder, "points.csv"), os.path.join(folder, "scene.mrb")
+        _landmark_table(table)
+        brainshift.save_scene(scene, stage.bend(stage.head(), _push()), points=table,
+                              hardened=False, spacing=4.0)
+        found = brainshift.open_scene(scene)
+        views = []
+        for shown, points in ((stage.bend(stage.head()), simple.LandmarkReader(FileName=table)),
+                              (*found.volumes.values(), *found.points.values())):
+            views.append(_slice_of(shown, side))
+            _show_landmarks(points, views[-1])
+        return stage.side_by_side(views)
+
+
 def landmark_files(width):
     """Landmarks of a table over the slice as loaded; those of the mapped file over it as bent."""
     import brainshift
     side = width // 2
     bent = stage.bend(stage.head(), _push())
-    steps = [step * LANDMARKS_MM for step in range(-3, 4)]
-    places = [(FOCUS[0] + x, stage.CORTEX[1], FOCUS[2] + z) for x in steps for z in steps]
     with tempfile.TemporaryDirectory() as folder:
         files = os.path.join(folder, "rest.csv"), os.path.join(folder, "bent.mrk.json")
-        with open(files[0], "w", encoding="utf-8") as table:
-            print("x,y,z", *(f"{x},{y},{z}" for x, y, z in places), sep="\n", file=table)
+        _landmark_table(files[0])
         brainshift.map_points(*files, bent)
         views = []
         for file, shown in zip(files, (stage.bend(stage.head()), bent)):
             views.append(_slice_of(shown, side))
-            balls = simple.Glyph(Input=_moved_forward(simple.LandmarkReader(FileName=file)),
-                                 GlyphType="Sphere", GlyphMode="All Points",
-                                 ScaleArray=["POINTS", "No scale array"])
-            balls.ScaleFactor = 3.0
-            stage.show_surface(balls, views[-1], stage.CYAN)
+            _show_landmarks(simple.LandmarkReader(FileName=file), views[-1])
         return stage.side_by_side(views)
 
 
@@ -325,6 +351,7 @@ FIELD_SCENES = {
     "filter-invert-displacement-field": invert,
     "filter-displacement-field-files": field_files,
     "filter-landmark-files": landmark_files,
+    "filter-slicer-scenes": slicer_scene,
     "filter-surfaces-and-tracts": surfaces,
     "filter-electrode-grids": electrode_grids,
     "filter-moments": moments,

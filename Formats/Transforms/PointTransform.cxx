@@ -100,6 +100,59 @@ glm::dvec3 cubicDisplacement(const FieldLink& link, const glm::dvec3& at)
   return sum;
 }
 
+// The weights of four points in a row, of which the second is `first + 1`.
+struct HeldAxis
+{
+  int first;
+  glm::dvec4 weights;
+};
+
+// At a grid coordinate of an axis, whose last point has the number `last`.
+HeldAxis heldAxis(double at, int last)
+{
+  at = glm::clamp(at, 0.0, static_cast<double>(last));
+  const int low = glm::clamp(static_cast<int>(at), 0, glm::max(last - 1, 0));
+  const double t = at - low;
+  const bool hasBefore = low > 0;
+  const bool hasBehind = low + 1 < last;
+  glm::dvec4 weights(0.0, 1.0 - t, t, 0.0);
+  if (hasBefore && hasBehind)
+  {
+    weights = cubicWeights(t);
+  }
+  else if (hasBehind)
+  {
+    weights = glm::dvec4(0.0, (t - 1.0) * (t - 2.0) / 2.0, t * (2.0 - t), t * (t - 1.0) / 2.0);
+  }
+  else if (hasBefore)
+  {
+    weights = glm::dvec4(t * (t - 1.0) / 2.0, 1.0 - t * t, t * (t + 1.0) / 2.0, 0.0);
+  }
+  return { low - 1, weights };
+}
+
+glm::dvec3 heldDisplacement(const FieldLink& link, const glm::dvec3& at)
+{
+  const glm::ivec3& sides = link.grid.dimensions;
+  const HeldAxis axes[3] = { heldAxis(at.x, sides.x - 1), heldAxis(at.y, sides.y - 1),
+    heldAxis(at.z, sides.z - 1) };
+  glm::dvec3 sum(0.0);
+  for (int i = 0; i < 64; ++i)
+  {
+    const glm::ivec3 step(i & 3, i >> 2 & 3, i >> 4);
+    const double weight =
+      axes[0].weights[step.x] * axes[1].weights[step.y] * axes[2].weights[step.z];
+    if (weight != 0.0) // a neighbour without a number does not count where it has no weight
+    {
+      const glm::ivec3 point(
+        axes[0].first + step.x, axes[1].first + step.y, axes[2].first + step.z);
+      const std::size_t row = static_cast<std::size_t>(point.z) * sides.y + point.y;
+      sum += weight * glm::dvec3(link.displacements[row * sides.x + point.x]);
+    }
+  }
+  return sum;
+}
+
 bool isWithin(const glm::dvec3& at, const glm::dvec3& low, const glm::dvec3& high)
 {
   return glm::all(glm::greaterThanEqual(at, low)) && glm::all(glm::lessThanEqual(at, high));
@@ -109,6 +162,10 @@ glm::dvec3 mappedBy(const FieldLink& link, const glm::dvec3& from)
 {
   const glm::ivec3 last = link.grid.dimensions - 1;
   glm::dvec3 at = link.grid.at(from);
+  if (link.between == Between::Held)
+  {
+    return from + heldDisplacement(link, at);
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
     if (!(at[axis] >= -0.5 && at[axis] < last[axis] + 0.5))
@@ -367,6 +424,23 @@ std::optional<AffineLink> affineOf(const PointTransform& transform)
     all = { affine->linear * all.linear, affine->linear * all.offset + affine->offset };
   }
   return all;
+}
+
+void holdFields(PointTransform& transform)
+{
+  for (TransformLink& link : transform.links)
+  {
+    if (auto* field = std::get_if<FieldLink>(&link); field && field->between == Between::Linear)
+    {
+      field->between = Between::Held;
+    }
+    else if (auto* inverse = std::get_if<InverseLink>(&link))
+    {
+      PointTransform other = *inverse->of;
+      holdFields(other);
+      inverse->of = std::make_shared<const PointTransform>(std::move(other));
+    }
+  }
 }
 
 TransformLink inverseOf(PointTransform transform)

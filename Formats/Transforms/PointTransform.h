@@ -63,9 +63,11 @@ enum class Between
   Linear,
   Nearest, ///< elastix with interpolation order 0
   Cubic,   ///< the MNI's: Catmull-Rom; linear within a cell of the edge; outside it the nearest
+  Held,    ///< Slicer's: Catmull-Rom, quadratic in the outermost cells; outside, that of the edge
 };
 
-/** ITK's DisplacementFieldTransform: beyond half a cell outside its points, points stay. */
+/** ITK's DisplacementFieldTransform: beyond half a cell outside its points, points stay, unless it
+ * is Held. */
 struct FieldLink
 {
   LinkGrid grid;
@@ -113,6 +115,9 @@ VTKBRAINSHIFTFORMATS_EXPORT glm::dvec3 mappedBack(
 
 /** Reverses x and y on both sides: this leads from LPS to RAS and back. */
 VTKBRAINSHIFTFORMATS_EXPORT void reverseXY(PointTransform& transform);
+
+/** Makes all fields of a chain that are Linear Held, as Slicer shows them. */
+VTKBRAINSHIFTFORMATS_EXPORT void holdFields(PointTransform& transform);
 
 /** A link for the inverse of a chain. */
 VTKBRAINSHIFTFORMATS_EXPORT TransformLink inverseOf(PointTransform transform);

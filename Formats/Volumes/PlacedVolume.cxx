@@ -170,6 +170,10 @@ void PlacedVolume::readHeader(const std::string& fileName)
   this->Header = VolumeHeader();
   withBeginning(this->sentence(""), [&] {
     this->File->readHeader(fileName, this->Header);
+    if (this->WorldFromFile != glm::dmat4(1.0)) // which may leave -0
+    {
+      this->Header.worldFromVoxel = this->WorldFromFile * this->Header.worldFromVoxel;
+    }
     withBeginning("cannot be placed: ", [&] { requireAffine(this->Header.worldFromVoxel); });
   });
   this->Geometry = nearestRasGrid(this->Header.worldFromVoxel, this->Header.dimensions);

@@ -24,6 +24,9 @@ public:
   /** Reads the header of a file, or throws one sentence. */
   void readHeader(const std::string& fileName);
 
+  /** From the RAS of the next header to the world (mm). Default: the identity. */
+  void setPlacement(const glm::dmat4& worldFromFile) { this->WorldFromFile = worldFromFile; }
+
   /** Whether the last header was good. All that follows is of that file. */
   bool isPlaced() const { return this->Placed; }
 
@@ -52,6 +55,7 @@ private:
 
   std::unique_ptr<VolumeFile> File;
   std::string FileName;
+  glm::dmat4 WorldFromFile{ 1.0 };
   bool Placed = false;
   VolumeHeader Header;
   RasGrid Geometry;

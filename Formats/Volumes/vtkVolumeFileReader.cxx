@@ -72,6 +72,23 @@ std::size_t nearestIndex(const std::vector<double>& times, double time)
   return nearest;
 }
 
+glm::dmat4 affineOfRows(const double rows[16])
+{
+  glm::dmat4 affine;
+  for (int row = 0; row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      affine[column][row] = rows[4 * row + column];
+    }
+  }
+  if (rows[12] != 0.0 || rows[13] != 0.0 || rows[14] != 0.0 || rows[15] != 1.0)
+  {
+    throw brainshift::Problem("WorldFromFile has another last row than 0 0 0 1; it must be affine");
+  }
+  return affine;
+}
+
 // What the header says beside where the voxels lie.
 void attachFacts(const brainshift::VolumeHeader& header, vtkImageData* volume)
 {
@@ -147,7 +164,12 @@ void vtkVolumeFileReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Luminance: " << this->Luminance << "\n";
   os << indent << "Level: " << this->Level << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
-  os << indent << "Channel: " << this->Channel << "\n";
+  os << indent << "WorldFromFile:";
+  for (const double number : this->WorldFromFile)
+  {
+    os << " " << number;
+  }
+  os << "\n" << indent << "Channel: " << this->Channel << "\n";
 }
 
 void vtkVolumeFileReader::SetFormat(const char* name)
@@ -284,6 +306,7 @@ void vtkVolumeFileReader::takeFormat()
       return !this->GetAbortExecute();
     });
   }
+  this->Stored->setPlacement(affineOfRows(this->WorldFromFile));
   this->File->choose(this->Choice);
   this->File->setLuminance(this->Luminance);
   this->File->setPyramid({ this->Level, this->MemoryLimit, this->Channel });

@@ -122,6 +122,15 @@ public:
   int GetChannel() const { return this->Channel; }
   ///@}
 
+  ///@{
+  /**
+   * The rows of an affine map from the RAS of the file to the world, mm: moves the volume without
+   * resampling it. Its last row is 0 0 0 1. Default: the identity.
+   */
+  vtkSetVectorMacro(WorldFromFile, double, 16);
+  vtkGetVectorMacro(WorldFromFile, double, 16);
+  ///@}
+
   /** What was chosen of the file, and why: a sentence. Empty if the format chooses nothing. */
   std::string GetNote() const;
 
@@ -181,6 +190,7 @@ private:
   std::string Problem = "Nothing was read";
   vtkNew<vtkStringArray> ChoiceList;
   int ResampleSlices = 2;
+  double WorldFromFile[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
   bool Luminance = false;
   int Level = -1;
   double MemoryLimit = 2048.0; // MiB

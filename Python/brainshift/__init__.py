@@ -26,12 +26,14 @@ from .grids import ElectrodeGrid, Electrodes, electrodes
 from .judging import TargetErrors, tre
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
+from .openscene import OpenedScene, open_scene
 from .points import map_points, read_points
 from .registering import (
     Alignment, Refinement, RegistrationFailed, align, refine, similarities)
 from .reporting import report
 from .resecting import Resection, resect
 from .sample import open_sample
+from .savescene import save_scene
 from .steps import Step
 from .strokes import MOVE, NUMBERS_PER_STROKE, SOFT, STAMP, move, soft, stamp
 from .transforms import Transform, apply_transform, read_transform, save_transform
@@ -39,14 +41,12 @@ from .views import four_views, show_comparison
 from .windows import percentile_window
 
 __all__ = [
-    "Alignment", "Case", "Done", "ElectrodeGrid", "Electrodes", "Fit", "MOVE",
-    "MapDirection", "NUMBERS_PER_STROKE", "Refinement", "RegistrationFailed", "Resection", "SOFT",
-    "STAMP", "Step",
-    "TargetErrors", "Transform", "align", "animate", "apply_transform", "batch", "counters",
-    "deformed_from_rest", "dicom_patient", "direction", "electrodes", "figure", "fit", "four_views",
-    "gpu",
-    "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
-    "percentile_window", "pick", "read_points", "read_transform", "refine", "report", "resect",
-    "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_segmentation",
-    "save_transform", "save_volume", "show_comparison", "similarities", "slice_axes", "soft",
-    "stamp", "tre"]
+    "Alignment", "Case", "Done", "ElectrodeGrid", "Electrodes", "Fit", "MOVE", "MapDirection",
+    "NUMBERS_PER_STROKE", "OpenedScene", "Refinement", "RegistrationFailed", "Resection", "SOFT",
+    "STAMP", "Step", "TargetErrors", "Transform", "align", "animate", "apply_transform", "batch",
+    "counters", "deformed_from_rest", "dicom_patient", "direction", "electrodes", "figure", "fit",
+    "four_views", "gpu", "load_field", "load_lattice", "look", "looks", "map_points", "move",
+    "open_sample", "open_scene", "percentile_window", "pick", "read_points", "read_transform",
+    "refine", "report", "resect", "rest_from_deformed", "save_dicom", "save_field", "save_lattice",
+    "save_scene", "save_segmentation", "save_transform", "save_volume", "show_comparison",
+    "similarities", "slice_axes", "soft", "stamp", "tre"]

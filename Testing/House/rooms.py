@@ -23,8 +23,10 @@ STANDS_ON = {
     "Formats/Surfaces": ["Formats/MGH", "Formats/NIFTI"],
     "Formats/Transforms": ["Formats/NIFTI"],
     "Formats/Landmarks": ["Formats/Files"],
+    "Formats/Slicer": ["Common"],
     "Formats/Writers": ["Formats/DICOM", "Formats/Fields"],
-    "Formats": ["Formats/Landmarks", "Formats/Transforms", "Formats/Writers"],
+    "Formats": [
+        "Formats/Landmarks", "Formats/Slicer", "Formats/Transforms", "Formats/Writers"],
     "Filters/Deformation": ["Common"],
     "Filters/Attached": ["Filters/Deformation"],
     "Filters/Fit": ["Filters/Deformation"],

@@ -121,6 +121,15 @@ TEST(Defaults, OfDICOMReaderLiveInTheClass)
   EXPECT_EQ(defaultsIn("Formats/DICOM/DICOMVolumeReader.xml"), expected);
 }
 
+TEST(Defaults, OfNRRDReaderLiveInTheClass)
+{
+  vtkNew<vtkVolumeFileReader> reader;
+  const double* rows = reader->GetWorldFromFile();
+  const Defaults expected{ { "Format", {} }, // the text "NRRD"
+    { "WorldFromFile", std::vector<double>(rows, rows + 16) } };
+  EXPECT_EQ(defaultsIn("Formats/TextHeaders/NRRDVolumeReader.xml"), expected);
+}
+
 TEST(Defaults, OfOMEZarrReaderLiveInTheClass)
 {
   vtkNew<vtkVolumeFileReader> reader;
@@ -279,6 +288,7 @@ TEST(Defaults, OfTransformReaderLiveInTheClass)
   const int* sides = reader->GetLatticeDimensions();
   const Defaults expected{
     { "Direction", { double(reader->GetDirection()) } },
+    { "FieldsBetween", { double(reader->GetFieldsBetween()) } },
     { "Kernel", { double(reader->GetKernel()) } },
     { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
     { "MatrixProgram", { double(reader->GetMatrixProgram()) } },

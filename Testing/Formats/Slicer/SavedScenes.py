@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that a scene that BrainShift saves means in 3D Slicer what it shows: read by ElementTree,
+# json and numpy, and moved by VTK's grid transform, which is Slicer's, landmarks at rest go where
+# the bent volume has them; and that open_scene brings back what was saved.
+import gzip
+import json
+import os
+import shutil
+import warnings
+import xml.etree.ElementTree
+import zipfile
+
+import numpy
+import slicer_testing as slicer
+from brainshift_testing import ball, load_plugin, output, run_tests, scratch, volume
+from outside_testing import FLIP
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersHybrid import vtkGridTransform
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview import simple  # noqa: E402
+
+NEAR_FIELD = 0.05  # mm: the samples of the field are 2 mm apart
+REST = numpy.random.default_rng(9).uniform((-25, -20, -25), (25, 20, 25), (10, 3))
+
+
+def bent_head():
+    """A volume of a file, bent by two strokes, and labels."""
+    slicer.write_nrrd(scratch("Kopf ä.nrrd"), ball(41, 14).astype(numpy.int16), (-40, -40, -40),
+                      numpy.eye(3) * 2.0)
+    labels = numpy.zeros((41, 41, 41), numpy.uint8)
+    labels[15:25, 15:25, 15:25], labels[30:34, 5:9, 5:9] = 3, 7
+    words = ("Segment0_ID:=Segment_1", "Segment0_Name:=Tümor", "Segment0_Color:=1 0.5 0",
+             "Segment0_LabelValue:=3", "Segment0_Layer:=0")
+    slicer.write_nrrd(scratch("Labels.seg.nrrd"), labels, (-40, -40, -40), numpy.eye(3) * 2.0,
+                      words)
+    head = simple.NRRDVolumeReader(FileName=scratch("Kopf ä.nrrd"))
+    segments = simple.NRRDVolumeReader(FileName=scratch("Labels.seg.nrrd"))
+    bent = simple.FreeFormDeformation(Input=head)
+    bent.Strokes = brainshift.stamp((10, 5, 0), (10, 5, -30), 8.0) + brainshift.move(
+        (-10, -8, 5), (3, 5, 2))
+    bent.UpdatePipeline()
+    scene = slicer.Written("rest points")
+    scene.landmarks("Marken", REST)
+    return bent, segments, scene.path("Marken.mrk.json")
+
+
+def header_and_values(path):
+    """The header of an NRRD file as a dictionary, and its numbers."""
+    with open(path, "rb") as file:
+        head, data = file.read().split(b"\n\n", 1)
+    words = dict(line.replace(":=", ": ", 1).split(": ", 1)
+                 for line in head.decode().split("\n")[1:] if ": " in line or ":=" in line)
+    data = gzip.decompress(data) if words["encoding"].startswith("gz") else data
+    kind = {"float": "<f4", "double": "<f8", "short": "<i2", "uint8": "u1",
+            "unsigned char": "u1", "int16": "<i2", "uchar": "u1"}[words["type"]]
+    sides = [int(word) for word in words["sizes"].split()]
+    return words, numpy.frombuffer(data, kind).reshape(sides[::-1])
+
+
+def moved_as_in_slicer(path, points):
+    """RAS points moved from the parent by a grid of a file."""
+    words, values = header_and_values(path)
+    assert words["displacement field type"] == "resampling", words
+    assert words["space"] in ("left-posterior-superior", "LPS"), words
+    steps = [eval(word) for word in words["space directions"].split() if word != "none"]
+    origin = numpy.array(eval(words["space origin"]))
+    steps = numpy.array(steps)
+    spacing = numpy.linalg.norm(steps, axis=1)
+    image = vtkImageData()
+    image.SetDimensions(*reversed(values.shape[:3]))
+    image.SetSpacing(*spacing)
+    turn = (steps / spacing[:, None]).T  # columns: the axes of the grid in LPS
+    vectors = (values.reshape(-1, 3) @ turn).astype(numpy.float64)  # along the axes
+    image.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(vectors), deep=True))
+    grid = vtkGridTransform()
+    grid.SetDisplacementGridData(image)
+    grid.SetInterpolationModeToCubic()
+    found = [turn @ numpy.array(grid.TransformPoint(*((point * FLIP - origin) @ turn))) + origin
+             for point in points]
+    return numpy.array(found) * FLIP
+
+
+def nodes_of(path):
+    root = xml.etree.ElementTree.parse(path).getroot()
+    assert root.tag == "MRML" and root.get("version").startswith("Slicer 5")
+    by_id = {node.get("id"): node for node in root}
+    assert len(by_id) == len(root), "identifiers differ"
+    for node in root:
+        for part in node.get("references", "").split(";"):
+            assert not part or part.split(":")[1] in by_id, part
+    return root, by_id
+
+
+def refers(node, role):
+    return dict(part.split(":") for part in node.get("references").split(";") if part).get(role)
+
+
+def file_of(folder, node, by_id):
+    name = by_id[refers(node, "storage")].get("fileName")
+    assert " " not in name and not os.path.isabs(name), name
+    path = os.path.join(folder, name.replace("%20", " "))
+    assert os.path.isfile(path), path
+    return path
+
+
+def judge(path):
+    """What a reader of scenes finds in one that was saved of `bent_head`."""
+    folder = os.path.dirname(path)
+    root, by_id = nodes_of(path)
+    kinds = [node.tag for node in root]
+    assert kinds.count("Volume") == 2 and kinds.count("GridTransform") == 1, kinds
+    assert kinds.count("Segmentation") == 1 and kinds.count("MarkupsFiducial") == 1, kinds
+    grid = next(node for node in root if node.tag == "GridTransform")
+    by_name = {node.get("name"): node for node in root}
+    rest, hardened = by_name["Kopf ä"], by_name["Kopf ä hardened"]
+    points = by_name["Marken"]
+    assert refers(rest, "transform") == refers(points, "transform") == grid.get("id")
+    assert refers(by_name["Labels"], "transform") == grid.get("id")
+    assert refers(hardened, "transform") is None
+    return {name: file_of(folder, node, by_id) for name, node in (
+        ("grid", grid), ("rest", rest), ("hardened", hardened), ("points", points),
+        ("labels", by_name["Labels"]))}
+
+
+def test_a_saved_scene_is_bent_in_slicer():
+    bent, segments, marks = bent_head()
+    path = scratch("saved scene.mrml")
+    brainshift.save_scene(path, bent, points=marks, segmentations=segments)
+    files = judge(path)
+    deformed = brainshift.deformed_from_rest(bent, REST)
+    back = moved_as_in_slicer(files["grid"], deformed)
+    away = numpy.linalg.norm(back - REST, axis=1).max()
+    assert away < NEAR_FIELD, away
+    assert numpy.linalg.norm(deformed - REST, axis=1).max() > 2.0
+    with open(files["points"], encoding="utf-8") as file:
+        markup = json.load(file)["markups"][0]
+    assert markup["coordinateSystem"] == "LPS"
+    stored = numpy.array([point["position"] for point in markup["controlPoints"]]) * FLIP
+    assert numpy.abs(stored - REST).max() < 1e-4
+    _, values = header_and_values(files["rest"])
+    assert (numpy.sort(values.ravel()) == numpy.sort(ball(41, 14).astype("i2").ravel())).all()
+    baked = simple.BakeDeformation(Input=bent)
+    baked.UpdatePipeline()
+    right = vtk_to_numpy(output(baked).GetPointData().GetScalars())
+    _, values = header_and_values(files["hardened"])
+    assert (numpy.sort(values.ravel()) == numpy.sort(right)).all()
+    words, values = header_and_values(files["labels"])
+    assert words["Segment0_Name"] == "Tümor" and words["Segment0_LabelValue"] == "3", words
+    assert words["Segment1_LabelValue"] == "7" and sorted(numpy.unique(values)) == [0, 3, 7]
+
+
+def test_a_bundle_comes_back():
+    bent, segments, marks = bent_head()
+    path = scratch("Zurück.mrb")
+    shutil.rmtree(scratch("Zurück-opened"), ignore_errors=True)
+    brainshift.save_scene(path, [bent], points=[marks], segmentations=[segments])
+    assert not [name for name in os.listdir(scratch(".")) if name.startswith("brainshift-scene")]
+    names = zipfile.ZipFile(path).namelist()
+    assert "Zurück/Zurück.mrml" in names and all(name.startswith("Zurück/") for name in names)
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        found = brainshift.open_scene(path)
+    assert sorted(found.volumes) == ["Kopf ä", "Kopf ä hardened"], found.volumes
+    assert all("lattice" in note for note in found.notes), (found.notes, heard)
+    right = brainshift.deformed_from_rest(bent, REST)
+    again = brainshift.deformed_from_rest(found.volumes["Kopf ä"], REST)
+    assert numpy.linalg.norm(again - right, axis=1).max() < 0.1
+    found.points["Marken"].UpdatePipeline()
+    marks = vtk_to_numpy(output(found.points["Marken"]).GetPoints().GetData())
+    assert numpy.linalg.norm(marks - right, axis=1).max() < NEAR_FIELD
+    names = output(found.segmentations["Labels"]).GetFieldData().GetAbstractArray("LabelNames")
+    assert [names.GetValue(i) for i in range(2)] == ["Tümor", "Label 7"]
+
+
+def test_plain_volumes_and_wrong_names():
+    plain = volume(ball(9, 3))
+    brainshift.save_scene(scratch("plain.mrml"), plain)
+    root, _ = nodes_of(scratch("plain.mrml"))
+    assert not [node for node in root if node.tag == "GridTransform"]
+    try:
+        brainshift.save_scene(scratch("scene.xml"), plain)
+    except ValueError as problem:
+        assert "must end in .mrml or .mrb" in str(problem)
+    else:
+        raise AssertionError("another ending is not refused")
+
+
+run_tests(globals())
