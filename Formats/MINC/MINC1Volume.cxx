@@ -63,7 +63,8 @@ void require(int status, const std::string& what)
 {
   if (status != NC_NOERR)
   {
-    throw Problem("is damaged: netCDF cannot read " + what + " (" + nc_strerror(status) + ")");
+    throw Problem(
+      "is damaged: netCDF cannot read " + shownWords(what) + " (" + nc_strerror(status) + ")");
   }
 }
 
