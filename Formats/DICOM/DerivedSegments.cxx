@@ -390,7 +390,7 @@ DerivedSet imageOf(const Source& source)
   return image;
 }
 
-// The image of the scan in whose plane a frame lies, in a sequence; empty if there is none.
+// The image of the scan in whose plane a frame is, in a sequence; empty if there is none.
 std::vector<DerivedSet> derivationOf(
   const Frames& frames, int slice, const std::vector<Source>& sources)
 {

@@ -394,7 +394,7 @@ std::vector<double> limitsNamed(int file, const char* name, std::vector<int>& di
   return numbers;
 }
 
-// The slowest axis of space: a slice is what lies along the others.
+// The slowest axis of space: a slice is what is along the others.
 std::size_t sliceAxisOf(const std::vector<MINCAxis>& axes)
 {
   const auto isSpace = [](const MINCAxis& axis) { return axis.use == AxisUse::Space; };

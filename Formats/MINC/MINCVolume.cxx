@@ -234,7 +234,7 @@ public:
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
 private:
-  // Reads the voxels of a time: one component, or all that lie together. False if told to stop.
+  // Reads the voxels of a time: one component, or all that are together. False if stopped.
   bool loadPart(mihandle_t file, std::size_t volume, std::optional<int> component,
     const Progress& progress, vtkDataArray* numbers) const;
 
