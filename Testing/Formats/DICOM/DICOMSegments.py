@@ -157,6 +157,34 @@ def test_other_types_and_bits():
     assert_placed(reader, affine_of(), 700 * bytes_of[:1].astype(int), most=0)
 
 
+def test_the_check_for_overlaps_can_be_stopped():
+    frames = [(segment, k, mask) for segment in (1, 2) for k, mask in enumerate(masks(3))]
+    path = written(segmentation(frames))
+
+    def read_stopped(stop_at):
+        """How often the reader reports progress before it reads voxels, what it says, its points."""
+        source = DICOMVolumeReader(FileName=path).GetClientSideObject()
+        seen = []
+
+        def count(*_):
+            seen.append(source.GetProgress())
+            if len(seen) == stop_at:
+                source.SetAbortExecute(1)
+        source.AddObserver("ProgressEvent", count)
+        with messages() as told:
+            source.Modified()
+            source.UpdateInformation()
+            before = len(seen)
+            source.Update()
+        return before, told.text, source.GetOutput().GetNumberOfPoints()
+
+    count, told, points = read_stopped(None)
+    assert count == 2 and not told and points == 3 * 35, (count, told, points)
+    _, told, points = read_stopped(count)  # after the header, in the check
+    assert_says(told, "was stopped. Nothing is shown")
+    assert points == 0, points
+
+
 def palette(image, colors, first=0, entries=None):
     """Gives an image the palette of `colors` [entry, red green blue]."""
     image.PhotometricInterpretation = "PALETTE COLOR"
