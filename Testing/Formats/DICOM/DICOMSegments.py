@@ -162,7 +162,7 @@ def test_the_check_for_overlaps_can_be_stopped():
     path = written(segmentation(frames))
 
     def read_stopped(stop_at):
-        """How often the reader reports progress before it reads voxels, what it says, its points."""
+        """How often progress comes before voxels are read, what the reader says, its points."""
         source = DICOMVolumeReader(FileName=path).GetClientSideObject()
         seen = []
 
