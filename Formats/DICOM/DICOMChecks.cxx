@@ -3,7 +3,6 @@
 
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMFrames.h"
-#include "Formats/DICOM/DICOMMosaic.h"
 #include "Formats/Files/Text.h"
 
 #include <iomanip>
@@ -95,7 +94,6 @@ void requireBits(const DICOMDataSet& set, const DICOMPixelFormat& pixels, Segmen
 // Sequences that give numbers or frames another meaning than a volume has.
 void requireVolume(const DICOMDataSet& set, SegmentKind kind)
 {
-  requireNoMosaic(set);
   if (!itemsOf(set, 0x00283000).empty())
   {
     throw Problem(
@@ -186,10 +184,6 @@ std::vector<std::string> notesOf(const DICOMDataSet& set, const DICOMFile& file)
   if (textOf(set, 0x00280004).empty())
   {
     addNote(notes, "does not say its PhotometricInterpretation, which counts as MONOCHROME2");
-  }
-  if (const std::string mosaic = noteOfMosaic(set); !mosaic.empty())
-  {
-    addNote(notes, mosaic);
   }
   noteInverse(set, file, notes);
   notePadding(set, file.pixels, notes);

@@ -3,10 +3,12 @@
 
 #include "Common/Bytes.h"
 #include "Formats/DICOM/DICOMAttributes.h"
+#include "Formats/DICOM/DICOMFrames.h"
 #include "Formats/Files/Text.h"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace brainshift
 {
@@ -69,6 +71,10 @@ void readPalette(const DICOMDataSet& set, DICOMFile& file)
   }
 }
 
+constexpr DICOMTag SegmentSequence = 0x00620002;
+constexpr DICOMTag SegmentNumber = 0x00620004;
+constexpr DICOMTag RecommendedDisplayCIELabValue = 0x0062000d;
+
 // Colours are bytes.
 void requireBytes(const DICOMContent& content, const DICOMPixelFormat& pixels)
 {
@@ -126,6 +132,35 @@ Color colorAt(const DICOMFile& file, const unsigned char* stored, std::size_t i)
   const Color color{ first[0], first[step], first[2 * step] };
   return pixels.colors == DICOMColors::YBR ? rgbOfYbr(color) : color;
 }
+
+// The palette of a map of labels colours those that have no colour of their own.
+void colorLabels(const DICOMDataSet& set, DICOMFile& file)
+{
+  constexpr DICOMTag RedTable = 0x00281201;
+  if (set.elements.count(RedTable) == 0 && set.elements.count(RedTable + 0x20) == 0)
+  {
+    return;
+  }
+  const std::string problem = problemOf([&] { readPalette(set, file); });
+  if (!problem.empty())
+  {
+    addNote(file.notes, problem + ". Its labels have no colours of it");
+    return;
+  }
+  std::set<int> colored;
+  for (const DICOMDataSet& segment : itemsOf(set, SegmentSequence))
+  {
+    if (wholesOf(segment, RecommendedDisplayCIELabValue).size() == 3)
+    {
+      colored.insert(static_cast<int>(wholeOf(segment, SegmentNumber, 0.0)));
+    }
+  }
+  for (Label& label : file.segments.labels)
+  {
+    const bool isColored = colored.count(label.value) > 0;
+    label.color = isColored ? label.color : paletteColor(file, label.value);
+  }
+}
 }
 
 void readColors(const DICOMContent& content, DICOMFile& file)
@@ -133,6 +168,10 @@ void readColors(const DICOMContent& content, DICOMFile& file)
   DICOMPixelFormat& pixels = file.pixels;
   const std::string colors = shownWords(textOf(content.set, 0x00280004));
   const double samples = wholeOf(content.set, 0x00280002, 1.0);
+  if (file.segments.kind == SegmentKind::LabelMap && colors == "PALETTE COLOR")
+  {
+    colorLabels(content.set, file);
+  }
   if (file.segments.kind != SegmentKind::None)
   {
     return;

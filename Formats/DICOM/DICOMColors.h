@@ -11,7 +11,8 @@ namespace brainshift
 {
 /**
  * Reads how a file stores colours, and its palette. Throws the end of a sentence if they are not
- * read. Images in grey, and segmentations, have none.
+ * read. Images in grey, and segmentations, have none; the palette of a map of labels colours its
+ * labels.
  */
 void readColors(const DICOMContent& content, DICOMFile& file);
 

@@ -5,6 +5,7 @@
 #include "Formats/DICOM/DICOMChecks.h"
 #include "Formats/DICOM/DICOMColors.h"
 #include "Formats/DICOM/DICOMFrames.h"
+#include "Formats/DICOM/DICOMMosaic.h"
 #include "Formats/DICOM/DICOMSegments.h"
 
 #include <algorithm>
@@ -143,9 +144,12 @@ DICOMFile readDICOMHeader(const std::string& path)
     file.segments.kind != SegmentKind::None || (frames > 1.0 && !describesFrames(set));
   file.smallIsBright = textOf(set, 0x00280004) == "MONOCHROME1" ||
     (textOf(set, 0x00280004) == "MONOCHROME2" && textOf(set, 0x20500020) == "INVERSE");
-  file.notes = notesOf(set, file);
-  const std::string problem =
-    problemOf([&] { readDICOMFrames(set, static_cast<int>(frames), file.frames, file.notes); });
+  const std::vector<std::string> notes = notesOf(set, file);
+  file.notes.insert(file.notes.end(), notes.begin(), notes.end());
+  const std::string problem = problemOf([&] {
+    readDICOMFrames(set, static_cast<int>(frames), file.frames, file.notes);
+    cutMosaic(set, file);
+  });
   file.problem = file.problem.empty() ? problem : file.problem;
   if (file.problem.empty())
   {

@@ -208,6 +208,28 @@ void readRealValues(const DICOMDataSet& mapping, DICOMFrame& frame)
   frame.quantity = label + "\\" + frame.unit;
 }
 
+// Of several mappings the first counts in a parametric map, and none in other images.
+void readMappings(const Items& mappings, DICOMFrame& frame, Notes& notes)
+{
+  if (frame.isParametric && !mappings.empty())
+  {
+    readRealValues(mappings.front(), frame);
+    if (mappings.size() > 1)
+    {
+      addNote(notes,
+        joined("has ", mappings.size(),
+          " mappings of real values for a frame "
+          "(RealWorldValueMappingSequence); the first counts",
+          frame.measured.empty() ? "" : ", " + frame.measured));
+    }
+    return;
+  }
+  for (const DICOMDataSet& mapping : mappings)
+  {
+    noteRealValues(mapping, frame.rescaling, notes);
+  }
+}
+
 // A date and time in one text (VR DT): the offset from UTC at its end does not count.
 double secondsOfMoment(const std::string& moment, double missing)
 {
@@ -283,6 +305,15 @@ public:
     {
       use(*found);
     }
+  }
+
+  // Items of a group of the frame, or else of all frames.
+  const Items& itemsIn(int frame, const DICOMTag group) const
+  {
+    static const Items None;
+    const bool isThere = static_cast<std::size_t>(frame) < this->PerFrame.size();
+    const Items& own = isThere ? itemsOf(this->PerFrame[frame], group) : None;
+    return own.empty() && !this->Shared.empty() ? itemsOf(this->Shared.front(), group) : own;
   }
 
   // Whether the frame and all frames have a group, and the two differ.
@@ -370,16 +401,7 @@ bool readFunctionalGroups(const Groups& groups, int index, DICOMFrame& frame, No
     [&](const DICOMDataSet& plane) { hasOrientation = readOrientation(plane, frame, notes); });
   groups.with(index, ValueTransformation.tag,
     [&](const DICOMDataSet& values) { readRescaling(values, frame, notes); });
-  groups.with(index, RealWorldValues, [&](const DICOMDataSet& mapping) {
-    if (frame.isParametric)
-    {
-      readRealValues(mapping, frame);
-    }
-    else
-    {
-      noteRealValues(mapping, frame.rescaling, notes);
-    }
-  });
+  readMappings(groups.itemsIn(index, RealWorldValues), frame, notes);
   for (const DICOMName& name :
     { PixelMeasures, PlanePosition, PlaneOrientation, ValueTransformation })
   {
@@ -539,10 +561,9 @@ bool readCommon(const DICOMDataSet& set, DICOMFrame& frame, Notes& notes)
     frame.isPlaced || (!detectors.empty() && readPlane(detectors.front(), frame, notes));
   readRescaling(set, frame, notes);
   frame.isParametric = textOf(set, 0x00080016) == ParametricMapStorage;
-  const Items& mappings = itemsOf(set, RealWorldValues);
-  if (!mappings.empty() && !frame.isParametric)
+  if (!frame.isParametric)
   {
-    noteRealValues(mappings.front(), frame.rescaling, notes);
+    readMappings(itemsOf(set, RealWorldValues), frame, notes);
   }
   const double dose = requiredDecimal(set, { 0x3004000e, "DoseGridScaling" }, 1.0);
   if (dose == 0.0)

@@ -122,8 +122,10 @@ struct DICOMFile
   std::string modality;
   std::string date; ///< 2026-11-23, or empty
   int seriesNumber = 0;
-  int columns = 0;
+  int columns = 0; ///< of a frame
   int rows = 0;
+  int tiles =
+    1; ///< along each side of the picture of a mosaic, whose frames are its tiles; 1: none
   DICOMPixelFormat pixels;
   std::string space;    ///< FrameOfReferenceUID
   std::string sopClass; ///< SOPClassUID

@@ -4,6 +4,7 @@
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
 #include "Formats/DICOM/DICOMAttributes.h"
+#include "Formats/DICOM/DICOMFrames.h"
 #include "Formats/Files/Text.h"
 
 #include <algorithm>
@@ -18,6 +19,10 @@ constexpr DICOMTag Manufacturer = 0x00080070;
 constexpr DICOMTag Rows = 0x00280010;
 constexpr DICOMTag Columns = 0x00280011;
 constexpr DICOMTag AcquisitionMatrix = 0x00181310;
+
+constexpr DICOMTag NumberOfFrames = 0x00280008;
+constexpr DICOMTag SpacingBetweenSlices = 0x00180088;
+constexpr const char* WayOut = ". Convert the scanner's files with dcm2niix";
 
 // A private attribute. Its element counts from the block that its creator took.
 struct PrivateName
@@ -45,49 +50,59 @@ std::optional<DICOMTag> tagOf(const DICOMDataSet& set, const PrivateName& name)
   return {};
 }
 
-// A number in Siemens' own header, which has text behind each name. 0: none.
-double numberInHeader(const std::string& header, const std::string& name)
+// Numbers in Siemens' own header, which has texts behind each name. Empty: none.
+std::vector<double> numbersInHeader(const std::string& header, const std::string& name)
 {
-  constexpr std::size_t CountAt = 76;  // of values, after the begin of the name
-  constexpr std::size_t LengthAt = 88; // of the first value, bytes
-  constexpr std::size_t TextAt = 100;
+  constexpr std::size_t CountAt = 76; // of values, after the begin of the name
+  constexpr std::size_t ItemsAt = 84;
+  constexpr std::size_t LengthAt = 4; // of a text, bytes, after the begin of its item
+  constexpr std::size_t TextAt = 16;
   constexpr std::int32_t LongestText = 64;
+  constexpr std::int32_t MostValues = 3;
   const std::size_t place = header.find(name + std::string(1, 0));
+  std::vector<double> numbers;
   if (place == std::string::npos)
   {
-    return 0.0;
+    return numbers;
   }
   const auto count = storedNumberAt<std::int32_t>(header, place + CountAt, false);
-  const auto length = storedNumberAt<std::int32_t>(header, place + LengthAt, false);
-  if (!count || !length || *count < 1 || *length < 1 || *length > LongestText ||
-    header.size() < place + TextAt + static_cast<std::size_t>(*length))
+  std::size_t item = place + ItemsAt;
+  for (std::int32_t i = 0; count && i < std::min(*count, MostValues); ++i)
   {
-    return 0.0;
+    const auto length = storedNumberAt<std::int32_t>(header, item + LengthAt, false);
+    if (!length || *length < 1 || *length > LongestText ||
+      header.size() < item + TextAt + static_cast<std::size_t>(*length))
+    {
+      break; // items behind the last value are empty
+    }
+    const auto bytes = static_cast<std::size_t>(*length);
+    const std::string text = header.substr(item + TextAt, bytes);
+    const auto number = numberIn(trimmed(text.c_str()));
+    if (!number || !std::isfinite(*number))
+    {
+      return {};
+    }
+    numbers.push_back(*number);
+    item += TextAt + (bytes + 3) / 4 * 4; // texts fill words of 4 bytes
   }
-  const std::string text = header.substr(place + TextAt, static_cast<std::size_t>(*length));
-  return numberIn(trimmed(text.c_str())).value_or(0.0);
+  return numbers;
 }
 
-// Slices that a file says to have as tiles, and where it says so.
-struct SaidCount
+// Siemens' own header of an image. Empty: there is none.
+std::string imageHeader(const DICOMDataSet& set)
 {
-  double slices = 0.0;
-  std::string where;
-};
-
-SaidCount saidCount(const DICOMDataSet& set)
-{
-  const std::optional<DICOMTag> count = tagOf(set, SliceCount);
-  if (const double slices = count ? wholeOf(set, *count, 0.0) : 0.0; slices > 1.0)
-  {
-    return { slices, "(0019,xx0a)" };
-  }
   const std::optional<DICOMTag> header = tagOf(set, ImageHeader);
   const auto found = header ? set.elements.find(*header) : set.elements.end();
-  return found == set.elements.end()
-    ? SaidCount()
-    : SaidCount{ numberInHeader(found->second.bytes, "NumberOfImagesInMosaic"),
-        "(0029,xx10, NumberOfImagesInMosaic)" };
+  return found == set.elements.end() ? std::string() : found->second.bytes;
+}
+
+// How many slices a file has as tiles by its private attributes. 0: they do not give a number.
+double countOfTiles(const DICOMDataSet& set)
+{
+  const std::optional<DICOMTag> tag = tagOf(set, SliceCount);
+  const double count = tag ? wholeOf(set, *tag, 0.0) : 0.0;
+  const std::vector<double> inHeader = numbersInHeader(imageHeader(set), "NumberOfImagesInMosaic");
+  return count > 0.0 || inHeader.empty() ? count : inHeader.front();
 }
 
 // Programs that cut a mosaic into its slices leave the private attributes as they are.
@@ -102,31 +117,9 @@ bool hasRoomFor(double slices, const DICOMDataSet& set)
   return std::fmod(rows, tiles) == 0.0 && std::fmod(columns, tiles) == 0.0 &&
     std::max(rows, columns) >= tiles * measured;
 }
-}
 
-void requireNoMosaic(const DICOMDataSet& set)
-{
-  constexpr const char* Tiles = ": its slices are tiles of one picture; convert it with dcm2niix";
-  const std::string type = plainText(textOf(set, ImageType));
-  if (type.find("MOSAIC") != std::string::npos)
-  {
-    throw Problem("has the ImageType " + type + Tiles);
-  }
-  const SaidCount said = saidCount(set);
-  if (said.slices > 1.0 && hasRoomFor(said.slices, set))
-  {
-    throw Problem(joined("is a mosaic of ", said.slices, " slices by Siemens' private attribute ",
-      said.where, ", though not by its ImageType", Tiles));
-  }
-  const std::optional<DICOMTag> text = tagOf(set, TypeText);
-  const std::string words = text ? plainText(textOf(set, *text)) : std::string();
-  if (said.slices == 0.0 && words.find("MOSAIC") != std::string::npos)
-  {
-    throw Problem("is a mosaic by Siemens' private attribute (0051,xx16) " + shownWords(words) +
-      ", though not by its ImageType" + Tiles);
-  }
-}
-
+// The end of a sentence if an image of Siemens is so much larger than what was measured that it may
+// be a mosaic, although nothing in it says so, as after private attributes were removed.
 std::string noteOfMosaic(const DICOMDataSet& set)
 {
   constexpr int FewestTiles = 3; // along a side; scanners interpolate to twice as many pixels
@@ -143,5 +136,136 @@ std::string noteOfMosaic(const DICOMDataSet& set)
         " along a side were measured (AcquisitionMatrix): they may be mosaics, whose tiles are the "
         "slices")
     : std::string();
+}
+
+// Whether a picture is a mosaic: by its ImageType, or by private attributes alone.
+bool isMosaic(const DICOMDataSet& set, double slices)
+{
+  const std::optional<DICOMTag> words = tagOf(set, TypeText);
+  const auto isNamed = [&set](DICOMTag tag) {
+    return plainText(textOf(set, tag)).find("MOSAIC") != std::string::npos;
+  };
+  return isNamed(ImageType) || (slices > 1.0 && hasRoomFor(slices, set)) ||
+    (slices == 0.0 && words && isNamed(*words));
+}
+
+// From the first tile to the next one. Only Siemens' normal gives the direction: scanners number
+// slices from feet to head or from head to feet.
+glm::dvec3 stepOfTiles(const DICOMDataSet& set, const DICOMFrame& first)
+{
+  constexpr double LeastCosine = 0.999;
+  const std::string header = imageHeader(set);
+  const std::vector<double> stored = numbersInHeader(header, "SliceNormalVector");
+  if (stored.size() != 3)
+  {
+    throw Problem(std::string("is a mosaic whose order of slices is not known: it has no "
+                              "SliceNormalVector in Siemens' private attribute (0029,xx10), which "
+                              "anonymizers often remove") +
+      WayOut);
+  }
+  const glm::dvec3 normal = glm::cross(first.alongRow, first.alongColumn);
+  const double cosine = glm::dot(normal, glm::dvec3(stored[0], stored[1], stored[2]));
+  if (!(std::abs(cosine) > LeastCosine && std::abs(cosine) < 2.0 - LeastCosine))
+  {
+    throw Problem(
+      joined("is a mosaic whose SliceNormalVector, ", stored[0], "\\", stored[1], "\\", stored[2],
+        ", is not perpendicular to its ImageOrientationPatient (cosine ", cosine, ")", WayOut));
+  }
+  std::vector<double> stepMm =
+    requiredDecimals(set, { SpacingBetweenSlices, "SpacingBetweenSlices" }, 1);
+  stepMm = stepMm.empty() ? numbersInHeader(header, "SpacingBetweenSlices") : stepMm;
+  if (stepMm.empty() || !(stepMm.front() > 0.0))
+  {
+    throw Problem(joined("is a mosaic whose SpacingBetweenSlices is ",
+      stepMm.empty() ? std::string("missing") : numberText(stepMm.front()),
+      "; it must be above 0 mm", WayOut));
+  }
+  return std::copysign(stepMm.front(), cosine) * normal;
+}
+
+// Tiles along each side of a picture of so many slices.
+int tilesAlong(double slices, const DICOMFile& file)
+{
+  constexpr double MostSlices = 65536.0;
+  const int tiles = slices >= 1.0 && slices <= MostSlices && slices == std::floor(slices)
+    ? static_cast<int>(std::ceil(std::sqrt(slices)))
+    : 0;
+  if (tiles == 0)
+  {
+    throw Problem(joined("is a mosaic, a picture whose tiles are slices, of ",
+      slices == 0.0 ? std::string("an unknown number of") : numberText(slices),
+      " slices (NumberOfImagesInMosaic in Siemens' private attributes (0019,xx0a) and (0029,xx10), "
+      "which anonymizers often remove)",
+      WayOut));
+  }
+  if (file.rows % tiles != 0 || file.columns % tiles != 0)
+  {
+    throw Problem(joined("is a mosaic of ", slices, " slices in ", file.columns, " x ", file.rows,
+      " pixels, which ", tiles, " x ", tiles, " tiles do not divide", WayOut));
+  }
+  return tiles;
+}
+
+// What else a picture needs so that its tiles have a place.
+void requireTiles(const DICOMDataSet& set, const DICOMFile& file, double slices)
+{
+  const std::vector<double> inHeader = numbersInHeader(imageHeader(set), "NumberOfImagesInMosaic");
+  if (!inHeader.empty() && inHeader.front() != slices)
+  {
+    throw Problem(joined("is a mosaic of ", slices,
+      " slices by the private attribute (0019,xx0a) and of ", inHeader.front(),
+      " by NumberOfImagesInMosaic in (0029,xx10); they must be the same", WayOut));
+  }
+  if (file.frames.size() != 1 || set.elements.count(NumberOfFrames) > 0)
+  {
+    throw Problem(
+      joined("has ", file.frames.size(), " frames that are mosaics; a file has one", WayOut));
+  }
+  if (!file.frames.front().isPlaced)
+  {
+    throw Problem(std::string("is a mosaic without ImagePositionPatient and "
+                              "ImageOrientationPatient") +
+      WayOut);
+  }
+  if (file.pixels.colors != DICOMColors::None)
+  {
+    throw Problem(std::string("is a mosaic in colours; it must be grey") + WayOut);
+  }
+}
+}
+
+void cutMosaic(const DICOMDataSet& set, DICOMFile& file)
+{
+  const double slices = countOfTiles(set);
+  if (!isMosaic(set, slices))
+  {
+    if (const std::string note = noteOfMosaic(set); !note.empty())
+    {
+      addNote(file.notes, note);
+    }
+    return;
+  }
+  const int tiles = tilesAlong(slices, file);
+  requireTiles(set, file, slices);
+  DICOMFrame tile = file.frames.front();
+  const glm::dvec3 step = stepOfTiles(set, tile);
+  const int pictureColumns = file.columns;
+  const int pictureRows = file.rows;
+  file.tiles = tiles;
+  file.columns /= tiles;
+  file.rows /= tiles;
+  // The position is that of a slice as large as the picture, with the centre of the first slice.
+  tile.position += 0.5 * (pictureColumns - file.columns) * tile.spacingMm.x * tile.alongRow +
+    0.5 * (pictureRows - file.rows) * tile.spacingMm.y * tile.alongColumn;
+  tile.locationMm.reset();
+  tile.sliceStepMm = tile.betweenSlicesMm = glm::length(step);
+  tile.knowsStep = true;
+  file.frames.clear();
+  for (int i = 0; i < static_cast<int>(slices); ++i)
+  {
+    file.frames.push_back(tile);
+    file.frames.back().frame = i;
+    file.frames.back().position += static_cast<double>(i) * step;
+  }
 }
 }

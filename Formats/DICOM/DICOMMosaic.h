@@ -5,17 +5,16 @@
 #define BrainShift_DICOMMosaic_h
 
 #include "Formats/DICOM/DICOMDataSet.h"
+#include "Formats/DICOM/DICOMImages.h"
 
 namespace brainshift
 {
-/** Throws the end of a sentence if a file says that it is one, in its ImageType or privately. */
-void requireNoMosaic(const DICOMDataSet& set);
-
 /**
- * The end of a sentence if an image of Siemens is so much larger than what was measured that it may
- * be a mosaic, although nothing in it says so, as after private attributes were removed. Empty: no.
+ * Divides a mosaic: rows, columns and frames of the file become those of its tiles. The private
+ * attributes of Siemens give their number and the direction from tile to tile. Throws the end of a
+ * sentence if the file is a mosaic and lacks one of them. Adds a note if it may be one.
  */
-std::string noteOfMosaic(const DICOMDataSet& set);
+void cutMosaic(const DICOMDataSet& set, DICOMFile& file);
 }
 
 #endif

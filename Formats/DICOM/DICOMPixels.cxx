@@ -7,6 +7,9 @@
 #include "Formats/Files/Text.h"
 #include "Formats/PackedFrames/PackedFrame.h"
 
+#include "vtkDataArray.h"
+
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <type_traits>
@@ -333,6 +336,41 @@ void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int 
     });
   }
 }
+
+// The picture of a mosaic, as if it were a slice.
+DICOMFile pictureOf(const DICOMFile& mosaic)
+{
+  DICOMFile picture = mosaic;
+  picture.columns *= mosaic.tiles;
+  picture.rows *= mosaic.tiles;
+  picture.tiles = 1;
+  picture.frames.resize(1);
+  picture.frames.front().frame = 0;
+  return picture;
+}
+
+void readTiles(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
+{
+  const DICOMFile picture = pictureOf(file);
+  const auto bytes = static_cast<std::size_t>(vtkDataArray::GetDataTypeSize(type));
+  std::vector<char> numbers(pixelsOf(picture) * bytes);
+  readDICOMPixels(picture, { { &picture.frames.front(), numbers.data() } }, type);
+  const auto tiles = static_cast<std::size_t>(file.tiles);
+  const std::size_t rowBytes = bytes * static_cast<std::size_t>(file.columns);
+  for (const DICOMTarget& target : targets)
+  {
+    const std::size_t tileRow = static_cast<std::size_t>(target.frame->frame) / tiles;
+    const std::size_t tileColumn = static_cast<std::size_t>(target.frame->frame) % tiles;
+    auto* to = static_cast<char*>(target.numbers);
+    for (int row = 0; row < file.rows; ++row)
+    {
+      const std::size_t pictureRow =
+        tileRow * static_cast<std::size_t>(file.rows) + static_cast<std::size_t>(row);
+      const char* from = numbers.data() + (pictureRow * tiles + tileColumn) * rowBytes;
+      to = std::copy_n(from, rowBytes, to);
+    }
+  }
+}
 }
 
 int storedTypeOf(const DICOMPixelFormat& pixels)
@@ -359,6 +397,11 @@ int storedTypeOf(const DICOMPixelFormat& pixels)
 
 void requirePixelData(const DICOMFile& file)
 {
+  if (file.tiles > 1)
+  {
+    requirePixelData(pictureOf(file));
+    return;
+  }
   const std::uint64_t pixels = pixelsOf(file) * file.frames.size();
   const std::uint64_t bytes = file.pixels.bitsAllocated == 1
     ? (pixels + 7) / 8
@@ -379,7 +422,11 @@ void requirePixelData(const DICOMFile& file)
 
 void readDICOMPixels(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
-  if (file.pixels.isPlain)
+  if (file.tiles > 1)
+  {
+    readTiles(file, targets, type);
+  }
+  else if (file.pixels.isPlain)
   {
     readPlain(file, targets, type);
   }

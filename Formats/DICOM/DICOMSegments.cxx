@@ -20,7 +20,7 @@ constexpr const char* LabelMapStorage = "1.2.840.10008.5.1.4.1.1.66.7";
 constexpr DICOMTag SegmentSequence = 0x00620002;
 constexpr int MostSlices = 65535;
 constexpr double MostFramePixels = 1 << 26; // 8192 x 8192
-// A frame that lies farther from its slice, or from its neighbours in the plane, is on no grid.
+// A frame that is farther from its slice, or from its neighbours in the plane, is on no grid.
 constexpr double LargestShiftSteps = 0.1;
 
 // A coded term as 3D Slicer writes it: scheme^code^meaning.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What a segmentation of DICOM says of its segments, and the grid on which their frames lie.
+/// What a segmentation of DICOM has of its segments, and the grid of their frames.
 ///
 /// A frame is one segment in one slice. Slices without a segment have no frame: they are empty.
 #ifndef BrainShift_DICOMSegments_h
@@ -29,7 +29,7 @@ std::array<unsigned char, 3> rgbOfLab(const std::array<int, 3>& lab);
 std::array<int, 3> labOfRgb(const std::array<unsigned char, 3>& rgb);
 ///@}
 
-/** Where the frames of a segmentation lie. */
+/** The positions of the frames of a segmentation. */
 struct DICOMSegmentGrid
 {
   glm::dmat4 worldFromVoxel{ 1.0 };  ///< mm, RAS; x along rows, z along slices

@@ -113,7 +113,7 @@ constexpr std::int64_t PartsAtOnce = 16; // between two calls of progress
 // Frames of one file that one thread reads.
 using Part = std::vector<DICOMTarget>;
 
-// Plain frames can be read one by one; packed ones are decoded with all others of their file.
+// Plain frames can be read one by one; packed ones and tiles with all others of their file.
 std::vector<Part> partsOf(
   const DICOMFolder& folder, const std::vector<DICOMFrame>& frames, vtkImageData* image)
 {
@@ -122,7 +122,8 @@ std::vector<Part> partsOf(
   for (std::size_t z = 0; z < frames.size(); ++z)
   {
     const DICOMTarget target{ &frames[z], image->GetScalarPointer(0, 0, static_cast<int>(z)) };
-    const bool isPlain = folder.files[frames[z].file].pixels.isPlain;
+    const DICOMFile& file = folder.files[frames[z].file];
+    const bool isPlain = file.pixels.isPlain && file.tiles == 1;
     const auto [known, isNew] = packed.insert({ frames[z].file, parts.size() });
     if (isPlain || isNew)
     {
@@ -353,8 +354,10 @@ void DICOMVolume::readSegments(DICOMSeries chosen, VolumeHeader& header)
 {
   this->Stack = DICOMStack();
   this->Stack.volumes = { { chosen.frames.front() } };
+  const Progress scanProgress =
+    this->ScanProgress ? this->ScanProgress : [](double) { return true; };
   this->Segments = std::make_unique<DICOMSegmentVolume>(
-    this->Folder.files[chosen.frames.front().file], [](double) { return true; });
+    this->Folder.files[chosen.frames.front().file], scanProgress);
   const std::vector<std::string> layers = this->Segments->layerNames();
   std::vector<DICOMSeries>& all = this->Folder.series;
   auto place = std::find_if(all.begin(), all.end(),
@@ -429,7 +432,8 @@ double DICOMVolume::storedBytes(const VolumeHeader& header) const
   const DICOMFile& file = this->Folder.files[this->Stack.volumes.front().front().file];
   const double numberBytes = vtkDataArray::GetDataTypeSize(header.storedType) * header.components;
   double images = static_cast<double>(this->Stack.volumes.front().size());
-  images += file.pixels.isPlain ? 0.0 : 2.0 * static_cast<double>(file.frames.size());
+  images +=
+    file.pixels.isPlain && file.tiles == 1 ? 0.0 : 2.0 * static_cast<double>(file.frames.size());
   const bool isResampled = !this->Stack.resampling.slices.empty();
   return numberBytes * images * file.columns * file.rows +
     (isResampled ? VolumeFile::storedBytes(header) : 0.0);

@@ -390,7 +390,7 @@ DerivedSet imageOf(const Source& source)
   return image;
 }
 
-// The image of the scan in whose plane a frame lies, in a sequence; empty if there is none.
+// The image of the scan in whose plane a frame is, in a sequence; empty if there is none.
 std::vector<DerivedSet> derivationOf(
   const Frames& frames, int slice, const std::vector<Source>& sources)
 {
@@ -555,6 +555,25 @@ std::string setFrames(const OutgoingVolume& volume, const Frames& frames,
   return bits.take();
 }
 
+// Names that shortName cuts.
+void noteNames(const std::map<int, Label>& labels, std::string& warning)
+{
+  std::size_t count = 0;
+  std::string first;
+  for (const auto& [value, label] : labels)
+  {
+    const bool isLong = label.name.size() > LongestText;
+    count += isLong ? 1 : 0;
+    first = isLong && first.empty() ? shortName(label.name) : first;
+  }
+  if (count > 0)
+  {
+    warning += (warning.empty() ? "" : ". ") +
+      joined(count, count == 1 ? " name is" : " names are", " longer than the ", LongestText,
+        " bytes of a SegmentLabel and cut, the first to '", first, "'");
+  }
+}
+
 void noteNumbers(const std::map<int, Label>& labels, std::string& warning)
 {
   int number = 0;
@@ -588,6 +607,7 @@ void writeSegments(const std::string& fileName, const std::string& like,
   DerivedSet set = studyHeader(source);
   chooseCharacters(labels, set, warning);
   noteNumbers(labels, warning);
+  noteNames(labels, warning);
   setFacts(source, set);
   setSequence(set, 0x00620002, describedSegments(labels));
   setDimensions(set);

@@ -21,7 +21,7 @@ struct OutgoingSegments
 };
 
 /**
- * Writes the file whole or not at all. Frames lie in the planes of the scan's images, one for each
+ * Writes the file whole or not at all. Frames are in the planes of the scan's images, one for each
  * slice that a segment has, and refer to the image there. Segments are numbered from 1 on, as the
  * standard wants: `warning` says so if the labels were others. Throws one sentence, without a full
  * stop.

@@ -3,10 +3,11 @@
 /// Volumes in MINC2 files (.mnc), through libminc.
 ///
 /// Their world is RAS, in mm. Whole numbers become real values, slice by slice, as the file says;
-/// whole numbers of the classes "integer" and "label" stay as they are. MINC1 files are refused.
+/// whole numbers of the classes "integer" and "label" stay as they are.
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/MINC/MINCAttributes.h"
+#include "Formats/MINC/MINCAxis.h"
 #include "Formats/Volumes/VolumeFile.h"
 
 #include "vtkDataArray.h"
@@ -24,10 +25,8 @@ namespace brainshift
 {
 namespace
 {
-constexpr std::uint64_t MostSteps = 65536;        // and numbers for a voxel: each takes memory
-constexpr std::uint64_t LongestSide = 2147483647; // of VTK
+constexpr std::uint64_t MostSteps = 65536; // of an axis whose positions are listed, and labels
 constexpr int MostAxes = 5;
-constexpr double LargestUnreportedErrorMm = 1e-3; // of an uneven axis that is shown evenly
 
 // VTK's types by those of libminc.
 const std::map<int, int> Types{ { MI_TYPE_BYTE, VTK_SIGNED_CHAR },
@@ -39,11 +38,6 @@ const std::map<int, int> Types{ { MI_TYPE_BYTE, VTK_SIGNED_CHAR },
 bool beginsLikeHDF5(const std::string& fileName)
 {
   return readBeginning(fileName, 4) == "\x89HDF";
-}
-
-bool beginsLikeNetCDF(const std::string& fileName)
-{
-  return readBeginning(fileName, 3) == "CDF";
 }
 
 // A file that is closed when it is no longer needed.
@@ -72,37 +66,10 @@ private:
   bool Good;
 };
 
-// What an axis of the file is for.
-enum class AxisUse
+bool describe(midimhandle_t dimension, MINCAxis& axis)
 {
-  Space,
-  Time,
-  Components,
-};
-
-// One axis of the file.
-struct Axis
-{
-  AxisUse use = AxisUse::Space;
-  std::uint64_t count = 0;
-};
-
-// What libminc says about one axis.
-struct StoredAxis
-{
-  std::string name;
   midimclass_t kind = MI_DIMCLASS_ANY;
   misize_t count = 0;
-  double start = 0.0; // mm along the axis
-  double step = 1.0;
-  std::string units;
-  std::vector<double> positions; // of an uneven axis; empty if the file does not list them
-  glm::dvec3 cosines{ 0.0 };
-  bool isEven = true;
-};
-
-bool describe(midimhandle_t dimension, StoredAxis& axis)
-{
   char* name = nullptr;
   miboolean_t isUneven = 0;
   if (miget_dimension_sampling_flag(dimension, &isUneven) == MI_NOERROR)
@@ -110,12 +77,16 @@ bool describe(midimhandle_t dimension, StoredAxis& axis)
     axis.isEven = isUneven == 0;
   }
   const bool isGood = miget_dimension_name(dimension, &name) == MI_NOERROR &&
-    miget_dimension_class(dimension, &axis.kind) == MI_NOERROR &&
-    miget_dimension_size(dimension, &axis.count) == MI_NOERROR &&
-    (axis.kind == MI_DIMCLASS_RECORD || // components have no place
+    miget_dimension_class(dimension, &kind) == MI_NOERROR &&
+    miget_dimension_size(dimension, &count) == MI_NOERROR &&
+    (kind == MI_DIMCLASS_RECORD || // components have no place
       (miget_dimension_start(dimension, MI_ORDER_FILE, &axis.start) == MI_NOERROR &&
         (miget_dimension_separation(dimension, MI_ORDER_FILE, &axis.step) == MI_NOERROR ||
           !axis.isEven)));
+  axis.use = kind == MI_DIMCLASS_SPATIAL ? AxisUse::Space
+    : kind == MI_DIMCLASS_TIME           ? AxisUse::Time
+                                         : AxisUse::Components;
+  axis.count = count;
   if (name)
   {
     axis.name = name;
@@ -133,11 +104,11 @@ bool describe(midimhandle_t dimension, StoredAxis& axis)
     miget_dimension_offsets(dimension, axis.count, 0, axis.positions.data());
   }
   return isGood &&
-    (axis.kind != MI_DIMCLASS_SPATIAL ||
+    (axis.use != AxisUse::Space ||
       miget_dimension_cosines(dimension, &axis.cosines.x) == MI_NOERROR);
 }
 
-void axesOf(mihandle_t volume, std::vector<StoredAxis>& axes)
+void axesOf(mihandle_t volume, std::vector<MINCAxis>& axes)
 {
   int count = 0;
   const bool isCounted =
@@ -152,7 +123,7 @@ void axesOf(mihandle_t volume, std::vector<StoredAxis>& axes)
     volume, MI_DIMCLASS_ANY, MI_DIMATTR_ALL, MI_DIMORDER_FILE, count, handles.data());
   for (int i = 0; i < count; ++i)
   {
-    StoredAxis axis;
+    MINCAxis axis;
     if (found == MI_ERROR || !describe(handles[static_cast<std::size_t>(i)], axis))
     {
       throw Problem("does not describe its dimension " + std::to_string(i));
@@ -208,99 +179,13 @@ std::vector<Label> labelsIn(mihandle_t volume)
   return labels;
 }
 
-// Millimetres or seconds by the words for units.
-const std::map<std::string, double> MmPerUnit{ { "", 1.0 }, { "mm", 1.0 }, { "cm", 10.0 },
-  { "m", 1000.0 }, { "um", 1e-3 }, { "millimeters", 1.0 }, { "millimetres", 1.0 } };
-const std::map<std::string, double> SecondsPerUnit{ { "", 1.0 }, { "s", 1.0 }, { "sec", 1.0 },
-  { "seconds", 1.0 }, { "ms", 1e-3 }, { "msec", 1e-3 }, { "us", 1e-6 }, { "min", 60.0 } };
-
-double factorOf(const std::map<std::string, double>& factors, const StoredAxis& axis)
-{
-  const auto known = factors.find(lowerCase(axis.units));
-  if (known == factors.end())
-  {
-    std::string words;
-    for (const auto& [word, factor] : factors)
-    {
-      words += (words.empty() || word.empty() ? "" : ", ") + word;
-    }
-    throw Problem("has the units '" + shownWords(axis.units) + "' along " + axis.name +
-      "; BrainShift reads " + words);
-  }
-  return known->second;
-}
-
-bool grows(const std::vector<double>& numbers)
-{
-  const auto isNotAbove = [](double a, double b) { return !(a < b); }; // also rejects NaN
-  return std::adjacent_find(numbers.begin(), numbers.end(), isNotAbove) == numbers.end() &&
-    std::isfinite(numbers.front()) && std::isfinite(numbers.back());
-}
-
-// Gives an uneven axis of space the even spacing from its first position to its last one.
-void makeEven(StoredAxis& axis, double mm, std::vector<std::string>& warnings)
-{
-  const std::vector<double>& positions = axis.positions;
-  if (positions.size() < 2 || positions.front() == positions.back()) // zeros of libminc
-  {
-    warnings.push_back("has an uneven spacing along " + axis.name +
-      ", but no list of its positions; it is shown with the even spacing " +
-      std::to_string(axis.step));
-    return;
-  }
-  if (!grows(positions) && !grows({ positions.rbegin(), positions.rend() }))
-  {
-    throw Problem("has positions along " + axis.name + " that neither grow nor fall");
-  }
-  axis.start = positions.front();
-  axis.step = (positions.back() - positions.front()) / static_cast<double>(positions.size() - 1);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < positions.size(); ++i)
-  {
-    const double even = axis.start + static_cast<double>(i) * axis.step;
-    largest = std::max(largest, std::abs(positions[i] - even));
-  }
-  if (mm * largest > LargestUnreportedErrorMm)
-  {
-    warnings.push_back(
-      joined("has an uneven spacing along ", axis.name, "; it is shown with the even spacing ",
-        mm * axis.step, " mm, up to ", mm * largest, " mm from its place"));
-  }
-}
-
-// Times of the volumes, s.
-std::vector<double> timesOf(const StoredAxis& axis, std::vector<std::string>& warnings)
-{
-  const double seconds = factorOf(SecondsPerUnit, axis);
-  if (axis.count > 1 && !axis.isEven)
-  {
-    std::vector<double> times = axis.positions;
-    std::for_each(times.begin(), times.end(), [seconds](double& time) { time *= seconds; });
-    if (!times.empty() && grows(times))
-    {
-      return times;
-    }
-    warnings.push_back("has uneven times along " + axis.name +
-      ", but no list of them that grows; " + "its volumes are numbered 0, 1, 2 and so on");
-    return evenTimes(axis.count, 1.0);
-  }
-  if (axis.count > 1 && !(axis.step > 0.0))
-  {
-    warnings.push_back("has the step " + std::to_string(axis.step) + " along " + axis.name +
-      ", which is no time; its volumes are numbered 0, 1, 2 and so on");
-    return evenTimes(axis.count, 1.0);
-  }
-  return evenTimes(axis.count, seconds * axis.step, seconds * axis.start);
-}
-
 // What a file does not say of its axes, or says in another length.
-void noteAxes(
-  const std::string& fileName, std::vector<StoredAxis>& axes, std::vector<std::string>& warnings)
+void noteMissing(const std::string& fileName, const std::vector<MINCAxis>& axes,
+  std::vector<std::string>& warnings)
 {
-  constexpr double Rounding = 1e-3; // of cosines with few digits
-  for (StoredAxis& axis : axes)
+  for (const MINCAxis& axis : axes)
   {
-    if (axis.kind != MI_DIMCLASS_SPATIAL)
+    if (axis.use != AxisUse::Space)
     {
       continue;
     }
@@ -311,63 +196,6 @@ void noteAxes(
       warnings.push_back("has no " + name + " along " + axis.name + ", which counts as " +
         (name == "step" ? "1" : "0"));
     }
-    const double length = glm::length(axis.cosines);
-    if (length > 0.0 && std::isfinite(length) && std::abs(length - 1.0) > Rounding)
-    {
-      warnings.push_back(joined("has direction_cosines along ", axis.name, " that are ", length,
-        " long, which count as 1"));
-      axis.cosines /= length;
-    }
-  }
-}
-
-// What the axes are for, and where they put voxels. Space counts from the fastest axis on.
-void arrange(std::vector<StoredAxis>& stored, std::vector<Axis>& axes, VolumeHeader& header)
-{
-  int along = 2;
-  header.worldFromVoxel[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
-  for (StoredAxis& axis : stored)
-  {
-    const bool isSpace = axis.kind == MI_DIMCLASS_SPATIAL;
-    const bool hasOther = std::any_of(
-      axes.begin(), axes.end(), [](const Axis& other) { return other.use == AxisUse::Components; });
-    const std::uint64_t limit = isSpace ? LongestSide : MostSteps;
-    if (axis.count < 1 || axis.count > limit)
-    {
-      throw Problem("has " + std::to_string(axis.count) + " entries along " + axis.name +
-        "; it must have from 1 to " + std::to_string(limit));
-    }
-    if (!isSpace && axis.kind != MI_DIMCLASS_TIME && hasOther)
-    {
-      throw Problem(
-        "has the dimension " + axis.name + ", which is none of space or time; only one may be");
-    }
-    axes.push_back({ isSpace            ? AxisUse::Space
-        : axis.kind == MI_DIMCLASS_TIME ? AxisUse::Time
-                                        : AxisUse::Components,
-      axis.count });
-    if (isSpace && along >= 0)
-    {
-      const double mm = factorOf(MmPerUnit, axis);
-      if (!axis.isEven)
-      {
-        makeEven(axis, mm, header.warnings);
-      }
-      header.worldFromVoxel[along] = glm::dvec4(mm * axis.step * axis.cosines, 0.0);
-      header.worldFromVoxel[3] += glm::dvec4(mm * axis.start * axis.cosines, 0.0);
-      header.dimensions[along] = static_cast<int>(axis.count);
-    }
-    along -= isSpace ? 1 : 0;
-    if (axis.kind == MI_DIMCLASS_TIME)
-    {
-      header.times = timesOf(axis, header.warnings);
-    }
-    header.components =
-      axes.back().use == AxisUse::Components ? static_cast<int>(axis.count) : header.components;
-  }
-  if (along != -1)
-  {
-    throw Problem("has " + std::to_string(2 - along) + " axes in space; it must have 3");
   }
 }
 
@@ -392,10 +220,10 @@ bool readSlices(mihandle_t volume, const Hyperslab& slab, bool areRealValues, vt
   return status == MI_NOERROR;
 }
 
-// Whether a file exists and begins like HDF5 or netCDF, as MINC2 and MINC1 files do.
+// Whether a file exists and begins like HDF5, as MINC2 files do.
 bool isMINCFile(const std::string& fileName)
 {
-  return beginsLikeHDF5(fileName) || beginsLikeNetCDF(fileName);
+  return beginsLikeHDF5(fileName);
 }
 
 class MINCVolume : public VolumeFile
@@ -406,13 +234,13 @@ public:
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
 private:
-  // Reads the voxels of a time: one component, or all that lie together. False if told to stop.
+  // Reads the voxels of a time: one component, or all that are together. False if stopped.
   bool loadPart(mihandle_t file, std::size_t volume, std::optional<int> component,
     const Progress& progress, vtkDataArray* numbers) const;
 
   std::string FileName;
-  std::vector<Axis> Axes;    // the slowest first
-  bool AreRealValues = true; // stored numbers are scaled
+  std::vector<MINCAxis> Axes; // the slowest first
+  bool AreRealValues = true;  // stored numbers are scaled
   VolumeHeader Header;
 };
 
@@ -421,9 +249,9 @@ void MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   this->FileName = fileName;
   this->Axes.clear();
   requirePlainFile(fileName);
-  if (beginsLikeNetCDF(fileName))
+  if (readBeginning(fileName, 3) == "CDF")
   {
-    throw Problem("is a MINC1 file; BrainShift reads MINC2, which mincconvert -2 makes of it");
+    throw Problem("is a MINC1 file, which MINC1 Volume Reader reads");
   }
   if (!beginsLikeHDF5(fileName))
   {
@@ -434,11 +262,10 @@ void MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   {
     throw Problem("is not MINC2, or is damaged: libminc cannot open it");
   }
-  std::vector<StoredAxis> stored;
-  axesOf(volume.get(), stored);
-  noteAxes(fileName, stored, header.warnings);
+  axesOf(volume.get(), this->Axes);
+  noteMissing(fileName, this->Axes, header.warnings);
   readType(volume.get(), header, this->AreRealValues);
-  arrange(stored, this->Axes, header);
+  placeMINC(this->Axes, header);
   if (header.dimensions == glm::ivec3(1))
   {
     throw Problem("has 1 voxel; it must have at least 2");

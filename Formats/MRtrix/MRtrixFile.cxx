@@ -27,7 +27,7 @@ struct TrackText
   std::size_t offset = 0; // of the first number
   std::size_t size = 4;   // bytes of a number
   bool isBigEndian = false;
-  double count = 0.0; // of streamlines; 0: not said
+  double count = 0.0; // of streamlines; 0: not given
 };
 
 // The keys up to END. False if it does not come.
@@ -135,7 +135,7 @@ void endStreamline(Tracts& tracts, std::size_t& empty)
   }
 }
 
-// Takes triples up to those that end the file. False if it was told to stop.
+// Takes triples up to those that end the file. False if it was stopped.
 template <typename T>
 bool takeTriples(
   const Triples<T>& triples, const FractionDone& fractionDone, Tracts& tracts, std::size_t& empty)

@@ -234,7 +234,7 @@ glm::dmat4 findPlace(const TrackHeader& header, const std::string& volumeName, T
   return world * voxel;
 }
 
-// Where the records of the streamlines lie, each with its number of points.
+// The places of the records of streamlines, each with its number of points.
 struct Records
 {
   std::size_t pointBytes = 12;
@@ -341,7 +341,7 @@ std::vector<NamedNumbers> emptyNumbers(
   return list;
 }
 
-// Numbers that lie side by side in the file, to the tuple of each array.
+// Numbers that are side by side in the file, to the tuple of each array.
 void takeNumbers(const char* from, std::size_t tuple, std::vector<NamedNumbers>& list)
 {
   for (NamedNumbers& numbers : list)
@@ -352,7 +352,7 @@ void takeNumbers(const char* from, std::size_t tuple, std::vector<NamedNumbers>&
   }
 }
 
-// One streamline, of numbers in this machine's order. Returns a point that lies nowhere, or -1.
+// One streamline, of numbers in this machine's order. Returns a point that is nowhere, or -1.
 std::int64_t takeStreamline(const std::vector<char>& bytes, const Records& records, std::size_t i,
   const glm::dmat4& worldFromStored, Tracts& tracts)
 {

@@ -360,6 +360,13 @@ std::optional<NIFTIWarpKind> niftiWarpOf(const std::string& fileName, bool isOfS
     throw Problem("has the intent " + std::to_string(intent) +
       ", and SPM's deformations have 1007 or none; leave out the program SPM");
   }
+  const std::string name =
+    trimmed(header && header->GetIntentName() ? header->GetIntentName() : "");
+  if (isOfSPM && intent == Vector && name != "Mapping")
+  {
+    throw Problem("has the intent 1007 with the name '" + shownWords(name) +
+      "', and SPM's deformations have the name Mapping; leave out the program SPM");
+  }
   return isOfSPM            ? std::optional(NIFTIWarpKind::Positions)
     : intent == Field       ? std::optional(NIFTIWarpKind::FSLField)
     : intent == CubicSpline ? std::optional(NIFTIWarpKind::FSLSpline)

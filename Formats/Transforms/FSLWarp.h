@@ -53,7 +53,7 @@ std::optional<NIFTIWarpKind> niftiWarpOf(const std::string& fileName, bool isOfS
 
 /**
  * Adds the map of a file of FSL, in LPS, or throws the end of a sentence. A field needs the moving
- * image, and lies in the voxels of the fixed one. Coefficients need both. Whether a field holds
+ * image, and is in the voxels of the fixed one. Coefficients need both. Whether a field holds
  * displacements or positions is found by FSL's own rule: what varies less, it holds.
  */
 void addFSLWarp(const std::string& fileName, NIFTIWarpKind kind, const NamedImages& images,

@@ -38,6 +38,10 @@ def test_a_page_lists_the_formats():
     page = text_of(PAGES / "formats.md")
     for item in format_reference.formats():
         assert f"| {item.table['format']} | {item.table['read']} |" in page, item.name
+    assert "| tracts, read | MRtrix `.tck`, `.tck.gz`; TrackVis `.trk`, `.trk.gz`; TRX" in page
+    assert "| tracts, written | MRtrix `.tck`; TrackVis `.trk`; TRX `.trx` |" in page
+    assert "| transforms, read | ITK, Slicer `.tfm`, `.txt`; ITK, ANTs `.h5`, `.hdf5`;" in page
+    assert "| `.lta` | FreeSurfer |" in text_of(PAGES / "filters" / "displacement-field-files.md")
 
 
 def test_readers_have_the_words_of_their_folders():

@@ -100,6 +100,29 @@ def table(kinds):
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
+def transforms():
+    """The files of transforms that are read, as a table of Markdown."""
+    text = (CHECKOUT / "Formats/Transforms/README.md").read_text(encoding="utf-8")
+    return re.search(r"^## Files that are read\n.*?((?:^\|[^\n]*\n)+)", text,
+                     re.MULTILINE | re.DOTALL)[1].strip()
+
+
+def endings(kinds, column="read"):
+    """The endings of some kinds, or of Transforms, after the names of their formats."""
+    if kinds == "Transforms":
+        rows = [row.strip("| ").split(" | ") for row in transforms().split("\n")[2:]]
+        named = [(program, file) for file, program, _ in rows if program != "all"]
+    else:
+        named = [(item.table["format"], item.table[column])
+                 for item in formats() if item.is_of(kinds.split())]
+    by_format = {}
+    for name, text in named:
+        found = by_format.setdefault(name, [])
+        words = re.findall(r"`\.[^`]+`", text) or ([text] if kinds == "Transforms" else [])
+        found += [word for word in words if word not in found]
+    return "; ".join(f"{name} {', '.join(found)}" for name, found in by_format.items() if found)
+
+
 def readers(elsewhere):
     """A section for each reader of volumes, with a marker for its properties, but for readers that
     have pages elsewhere. Links lead from Documentation/filters."""
@@ -117,6 +140,10 @@ def filled(markdown, pages):
     texts of all pages, which say what reader has a page of its own."""
     marker = re.compile(r"<!-- properties: (\w+) -->")
     markdown = re.sub(r"<!-- formats: ([\w ]+) -->", lambda found: table(found[1]), markdown)
+    markdown = markdown.replace("<!-- transforms -->", transforms())
+    markdown = re.sub(r"<!-- endings: ([\w ]+) -->", lambda found: endings(found[1]), markdown)
+    markdown = re.sub(
+        r"<!-- written: ([\w ]+) -->", lambda found: endings(found[1], "written"), markdown)
     if "<!-- volume readers -->" in markdown:
         elsewhere = {name for page in pages for name in marker.findall(page)}
         markdown = markdown.replace("<!-- volume readers -->", readers(elsewhere))

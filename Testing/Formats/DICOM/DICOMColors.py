@@ -251,6 +251,16 @@ def test_parametric_maps_are_real_values_with_units():
     assert unit_of(reader) == "ms"
 
 
+def test_of_several_mappings_the_first_counts_with_a_word():
+    voxels = numpy.arange(60).reshape(1, 3, 4, 5).astype(numpy.uint16)
+    image = parametric(voxels, [mapping("ADC", "mm2/s", 1e-6)])
+    for group in image.PerFrameFunctionalGroupsSequence:
+        group.RealWorldValueMappingSequence.append(mapping("FA", "1", 0.01))
+    reader, told = read(saved(image))
+    assert_says(told, "has 2 mappings of real values for a frame", "first counts, ADC in mm2/s")
+    assert_placed(reader, affine_of(), voxels[0] * 1e-6, most=1e-9)
+
+
 def test_a_real_parametric_map_is_read():
     path = data("pydicom-data", "parametric_map_float.dcm")
     reader, told = read(path)

@@ -157,6 +157,65 @@ def test_other_types_and_bits():
     assert_placed(reader, affine_of(), 700 * bytes_of[:1].astype(int), most=0)
 
 
+def test_the_check_for_overlaps_can_be_stopped():
+    frames = [(segment, k, mask) for segment in (1, 2) for k, mask in enumerate(masks(3))]
+    path = written(segmentation(frames))
+
+    def read_stopped(stop_at):
+        """How often progress comes before voxels are read, what the reader says, its points."""
+        source = DICOMVolumeReader(FileName=path).GetClientSideObject()
+        seen = []
+
+        def count(*_):
+            seen.append(source.GetProgress())
+            if len(seen) == stop_at:
+                source.SetAbortExecute(1)
+        source.AddObserver("ProgressEvent", count)
+        with messages() as told:
+            source.Modified()
+            source.UpdateInformation()
+            before = len(seen)
+            source.Update()
+        return before, told.text, source.GetOutput().GetNumberOfPoints()
+
+    count, told, points = read_stopped(None)
+    assert count == 2 and not told and points == 3 * 35, (count, told, points)
+    _, told, points = read_stopped(count)  # after the header, in the check
+    assert_says(told, "was stopped. Nothing is shown")
+    assert points == 0, points
+
+
+def palette(image, colors, first=0, entries=None):
+    """Gives an image the palette of `colors` [entry, red green blue]."""
+    image.PhotometricInterpretation = "PALETTE COLOR"
+    for i, name in enumerate(("Red", "Green", "Blue")):
+        table = (257 * colors[:, i].astype("<u2")).tobytes()
+        setattr(image, name + "PaletteColorLookupTableDescriptor",
+                [len(colors) if entries is None else entries, first, 16])
+        setattr(image, name + "PaletteColorLookupTableData", table)
+        image[name + "PaletteColorLookupTableData"].VR = "OW"
+
+
+def test_a_palette_colours_labels():
+    """Those that have no colour of their own."""
+    pixels = numpy.arange(35, dtype=numpy.uint8).reshape(5, 7) % 4
+    for entries in (None, 9):
+        image = segmentation([(None, 0, pixels), (None, 1, pixels)], "LABELMAP", numbers=[1, 2, 3])
+        colors = numpy.array([[0, 0, 0], [250, 10, 20], [30, 240, 50], [60, 70, 230]])
+        palette(image, colors, entries=entries)
+        for segment in image.SegmentSequence[:2]:
+            del segment.RecommendedDisplayCIELabValue
+        reader, told = read(written(image))
+        shown = [color for _, color, _ in labels_of(reader).values()]
+        assert shown[2] not in ((60, 70, 230), (255, 255, 255)), shown
+        if entries is None:
+            assert not told, told
+            assert shown[:2] == [(250, 10, 20), (30, 240, 50)], shown
+        else:
+            assert_says(told, "palette of 9 colours", "Its labels have no colours of it")
+            assert shown[:2] == [(255, 255, 255)] * 2, shown
+
+
 def test_a_deflated_file_is_read():
     bits = masks(2)
     image = segmentation([(1, 0, bits[0]), (1, 1, bits[1])])

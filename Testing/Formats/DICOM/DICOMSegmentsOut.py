@@ -228,6 +228,16 @@ def test_other_numbers_are_said():
     assert_placed(DICOMVolumeReader(FileName=path), affine_of(source), labels / 500, most=0)
 
 
+def test_names_that_are_cut_are_said():
+    like = scan()
+    labels = random_labels(image_shape(like), 2)
+    name = "a" * 63 + "ä and more"
+    path, told = saved(labelled(like, labels, [(1, name), (2, "short")]), like)
+    assert_says(told, "1 name is longer than the 64 bytes of a SegmentLabel and cut", "a" * 63)
+    assert [item.SegmentLabel for item in pydicom.dcmread(path).SegmentSequence] == [
+        "a" * 63, "short"]
+
+
 def test_characters_that_are_not_known_become_question_marks():
     def greek(image, _):
         image.SpecificCharacterSet, image.PatientName = "ISO_IR 126", "Αλφα"

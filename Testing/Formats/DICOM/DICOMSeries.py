@@ -4,7 +4,6 @@
 # sentence, and that the patient's name goes nowhere.
 import os
 import shutil
-import struct
 import subprocess
 
 import numpy
@@ -262,61 +261,11 @@ def refused(change, *words, voxels=None):
 
 
 def test_what_cannot_be_read_is_named():
-    def mosaic(image, _):
-        image.ImageType = ["ORIGINAL", "PRIMARY", "M", "MOSAIC"]
-
     def frames(image, _):
         image.NumberOfFrames = 2
         image.PixelData = image.PixelData * 2
 
-    refused(mosaic, "MOSAIC")
     refused(frames, "has 2 frames but no positions of them")
-
-
-def siemens_header(name, value):
-    """Siemens' own header (SV10) with one number, as text behind a name."""
-    text = value.encode().ljust(12, b"\0")
-    return (b"SV10\4\3\2\1" + struct.pack("<2I", 1, 77) + name.encode().ljust(64, b"\0")
-            + struct.pack("<i4s3i", 1, b"US", 9, 6, 77) + struct.pack("<4i", *4 * [len(value)])
-            + text)
-
-
-def test_mosaics_that_only_private_attributes_tell():
-    def private(group, creator, element, kind, value, matrix=None):
-        def change(image, _):
-            image.private_block(group, creator, create=True).add_new(element, kind, value)
-            if matrix:
-                image.AcquisitionMatrix = matrix
-        return change
-
-    voxels = numpy.arange(36, dtype=numpy.int16).reshape(1, 6, 6)
-    header = siemens_header("NumberOfImagesInMosaic", "9")
-    for group, creator, element, kind, value, words in (
-            (0x0019, "SIEMENS MR HEADER", 0x0a, "US", 9, "a mosaic of 9 slices"),
-            (0x0029, "SIEMENS CSA HEADER", 0x10, "OB", header, "a mosaic of 9 slices"),
-            (0x0051, "SIEMENS MR HEADER", 0x16, "LO", "p2 M/NORM/MOSAIC", "p2 M/NORM/MOSAIC")):
-        change = private(group, creator, element, kind, value)
-        refused(change, words, "convert it with dcm2niix", voxels=voxels)
-    for change in (private(0x0019, "SIEMENS MR HEADER", 0x0a, "US", 9, [0, 6, 6, 0]),
-                   private(0x0019, "SIEMENS MR HEADER", 0x0a, "US", 1),
-                   private(0x0019, "ANOTHER MAKER", 0x0a, "US", 9)):
-        path = write_slices(folder("slice-of-a-mosaic"), voxels, change=change)
-        reader, _ = read(path)
-        assert output(reader).GetNumberOfPoints() == 36
-
-
-def test_mosaics_that_nothing_tells_are_suspected():
-    def measured(side, maker):
-        def change(image, _):
-            image.AcquisitionMatrix, image.Manufacturer = [side, 0, 0, side], maker
-        return change
-
-    voxels = numpy.arange(36, dtype=numpy.int16).reshape(1, 6, 6)
-    for side, maker, doubts in ((2, "SIEMENS", True), (3, "SIEMENS", False), (2, "GE", False)):
-        path = write_slices(folder("suspected"), voxels, change=measured(side, maker))
-        reader, told = read(path)
-        assert ("they may be mosaics" in told) == doubts, (side, maker, told)
-        assert output(reader).GetNumberOfPoints() == 36
 
 
 def test_reports_are_no_slices():

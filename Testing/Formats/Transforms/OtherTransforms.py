@@ -390,11 +390,11 @@ def pair(hand):
     return fixed, moving
 
 
-def warp(name, vectors, affine, intent, components=4):
-    """Numbers [x, y, z, 3] as FSL stores them: in dim[4], or dim[5]."""
+def warp(name, vectors, affine, intent, components=4, called=""):
+    """Numbers [x, y, z, 3] as FSL stores them: in dim[4], or dim[5]. called: the intent's name."""
     stored = vectors if components == 4 else vectors[:, :, :, None]
     file = nibabel.Nifti1Image(stored.astype("f4"), affine)
-    file.header.set_intent(intent, allow_unknown=True) if intent else None
+    file.header.set_intent(intent, name=called, allow_unknown=True) if intent else None
     nibabel.save(file, scratch(name))
     return scratch(name)
 
@@ -481,6 +481,11 @@ def test_spm_positions_on_request():
         refuses("SPM as its program" if components == 5 else "3 components", file)
         found = brainshift.read_transform(file, program="spm").map(points)
         assert largest(found, right) < NEAR, largest(found, right)
+    file = warp("y_named.nii", places + vectors, affine, 1007, 5, called="Mapping")
+    assert largest(brainshift.read_transform(file, program="spm").map(points), right) < NEAR
+    for name in ("", "NREG_TRANS"):
+        file = warp("y_itk.nii", vectors, affine, 1007, 5, called=name)
+        refuses(f"1007 with the name '{name}'", file, program="SPM")
     refuses("intent 1006", warp("y_other.nii", vectors, affine, 1006, 5), program="SPM")
     refuses("SPM writes none as text", write("sixteen.txt", numbers(numpy.eye(4))), program="spm")
 

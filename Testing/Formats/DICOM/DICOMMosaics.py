@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that the tiles of Siemens' mosaics become slices where dcm2niix puts them, with its
+# numbers, from feet to head and from head to feet, packed and not; and that a mosaic without what
+# its slices need is refused with a sentence.
+import glob
+import os
+import shutil
+import struct
+
+import nibabel
+import numpy
+import pydicom
+from brainshift_testing import assert_says, data, load_plugin, messages, output, run_tests
+from dicom_testing import AXIAL, OBLIQUE, assert_placed, folder, scalars, write_slices
+
+load_plugin()
+from paraview.simple import DICOMVolumeReader  # noqa: E402 after the plugin
+
+SIEMENS = "SIEMENS CSA HEADER"
+TILE = (4, 5)  # rows, columns
+
+
+def read(path, **properties):
+    """The reader, and what it told."""
+    with messages() as told:
+        reader = DICOMVolumeReader(FileName=path, **properties)
+        reader.UpdatePipeline()
+    return reader, told.text
+
+
+def siemens_header(**fields):
+    """Siemens' own header (SV10) of fields with numbers, which are texts behind a name."""
+    header = b"SV10\4\3\2\1" + struct.pack("<2I", len(fields), 77)
+    for name, numbers in fields.items():
+        header += (name.encode().ljust(64, b"\0")
+                   + struct.pack("<i4s3i", len(numbers), b"FD", 4, 6, 77))
+        for item in range(6):  # as many as scanners write; those behind the last one are empty
+            text = f"{numbers[item]:.8f}".encode() + b"\0" if item < len(numbers) else b""
+            header += struct.pack("<4i", *[len(text)] * 4)
+            header += text.ljust(-(-len(text) // 4) * 4, b"\0")
+    return header
+
+
+def tiles_of(slices):
+    """A picture whose tiles are slices [slice, row, column]."""
+    along = int(numpy.ceil(numpy.sqrt(len(slices))))
+    picture = numpy.zeros((along * TILE[0], along * TILE[1]), slices.dtype)
+    for i, tile in enumerate(slices):
+        row, column = TILE[0] * (i // along), TILE[1] * (i % along)
+        picture[row:row + TILE[0], column:column + TILE[1]] = tile
+    return picture
+
+
+def mosaic(name, axes=AXIAL, slices=7, volumes=2, sign=1.0, change=None, header=None, step=3.5):
+    """Writes mosaics, one for each volume. Returns the folder, the right affine to RAS mm and the
+    voxels [time, slice, row, column]. header: fields of Siemens' own; None: the right ones."""
+    voxels = numpy.arange(volumes * slices * TILE[0] * TILE[1], dtype=numpy.int16)
+    voxels = voxels.reshape(volumes, slices, *TILE)
+    normal = sign * numpy.cross(*axes)
+    along = int(numpy.ceil(numpy.sqrt(slices)))
+    header = header if header is not None else {
+        "NumberOfImagesInMosaic": [slices], "SliceNormalVector": list(normal)}
+
+    def edit(image, index):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "M", "MOSAIC"]
+        image.SpacingBetweenSlices = f"{step:.6g}"
+        image.AcquisitionTime = f"1015{2.5 * index:09.6f}"
+        if header:
+            block = image.private_block(0x0029, SIEMENS, create=True)
+            block.add_new(0x10, "OB", siemens_header(**header))
+        if change:
+            change(image)
+
+    path = write_slices(folder(name), [tiles_of(volume) for volume in voxels], axes=axes,
+                        positions=[0] * volumes, change=edit)
+    across, down = (numpy.asarray(axis) for axis in axes)
+    # The centre of the picture is that of the first slice.
+    first = (numpy.array((-11.0, 22.0, 33.0)) + 0.7 * across * TILE[1] * (along - 1) / 2
+             + 0.9 * down * TILE[0] * (along - 1) / 2)
+    affine = numpy.eye(4)
+    affine[:3] = numpy.stack([0.7 * across, 0.9 * down, step * normal, first], axis=1)
+    return path, numpy.diag((-1.0, -1.0, 1.0, 1.0)) @ affine, voxels
+
+
+def assert_volumes(reader, affine, voxels):
+    assert len(reader.TimestepValues) == len(voxels), reader.TimestepValues
+    for time, volume in zip(reader.TimestepValues, voxels):
+        reader.UpdatePipeline(time)
+        assert_placed(reader, affine, volume)
+
+
+def test_real_mosaics_are_those_of_another_program():
+    for name, first, second in (("heads_first", 0.0, 3.2), ("epi_pe_ap", 0.0, 2.435)):
+        nifti = nibabel.load(data("dcm-qa-mosaic", name + ".nii.gz"))
+        reader, told = read(data("dcm-qa-mosaic", name + "-00001.dcm"))
+        assert not told, told
+        numpy.testing.assert_allclose(list(reader.TimestepValues), (first, second), atol=1e-6)
+        assert_volumes(reader, nifti.affine, numpy.asarray(nifti.dataobj).T)
+
+
+def test_tiles_lie_along_siemens_normal():
+    for axes in (AXIAL, OBLIQUE):
+        for sign in (1.0, -1.0):
+            for slices in (2, 7, 9):
+                path, affine, voxels = mosaic("normal", axes, slices, sign=sign)
+                reader, told = read(path)
+                assert not told, told
+                assert_volumes(reader, affine, voxels)
+
+
+def test_packed_and_rescaled_tiles_have_their_numbers():
+    def change(image):
+        image.RescaleSlope, image.RescaleIntercept = "2", "-5"
+        image.compress(pydicom.uid.RLELossless)
+
+    path, affine, voxels = mosaic("packed", change=change)
+    reader, told = read(path)
+    assert not told, told
+    assert_volumes(reader, affine, 2.0 * voxels - 5.0)
+
+
+def test_private_attributes_alone_tell_mosaics():
+    def unnamed(image):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "M"]
+        image.private_block(0x0019, "SIEMENS MR HEADER", create=True).add_new(0x0a, "US", 7)
+
+    path, affine, voxels = mosaic("unnamed", change=unnamed)
+    reader, told = read(path)
+    assert not told, told
+    assert_volumes(reader, affine, voxels)
+
+
+def test_the_step_may_be_in_siemens_header():
+    def without(image):
+        del image.SpacingBetweenSlices
+
+    path, affine, voxels = mosaic("step", change=without, header={
+        "NumberOfImagesInMosaic": [7], "SliceNormalVector": [0, 0, 1],
+        "SpacingBetweenSlices": [3.5]})
+    reader, told = read(path)
+    assert not told, told
+    assert_volumes(reader, affine, voxels)
+
+
+def refused(*words, change=None, **fields):
+    path, _, _ = mosaic("refused", change=change, **fields)
+    reader, told = read(path)
+    assert_says(told, path, *words)
+    assert "dcm2niix" in told, told
+    assert output(reader).GetNumberOfPoints() == 0
+
+
+def test_what_is_not_known_is_refused():
+    def setting(**values):
+        def change(image):
+            for keyword, value in values.items():
+                setattr(image, keyword, value)
+        return change
+
+    def counted(count):
+        def change(image):
+            block = image.private_block(0x0019, "SIEMENS MR HEADER", create=True)
+            block.add_new(0x0a, "US", count)
+        return change
+
+    def words(image):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "M"]
+        image.private_block(0x0051, "SIEMENS MR HEADER", create=True).add_new(
+            0x16, "LO", "p2 M/NORM/MOSAIC")
+
+    count = {"NumberOfImagesInMosaic": [7]}
+    normal = {"SliceNormalVector": [0, 0, 1]}
+    refused("an unknown number of slices", header={})
+    refused("an unknown number of slices", header={}, change=words)
+    refused("an unknown number of slices", header=normal)
+    refused("has no SliceNormalVector", header=count)
+    refused("has no SliceNormalVector", header={}, change=counted(7))
+    refused("not perpendicular", "cosine 0", header={**count, "SliceNormalVector": [0, 1, 0]})
+    refused("of 8 slices by", "of 7 by", change=counted(8))
+    refused("SpacingBetweenSlices is missing", change=setting(SpacingBetweenSlices=""))
+    refused("SpacingBetweenSlices is 0;", change=setting(SpacingBetweenSlices="0"))
+    refused("4 x 4 tiles do not divide", header={**normal, "NumberOfImagesInMosaic": [16]})
+    refused("without ImagePositionPatient", change=setting(ImagePositionPatient=None))
+    refused("frames that are mosaics", change=setting(NumberOfFrames=1))
+
+
+def test_slices_that_were_cut_out_of_a_mosaic_are_slices():
+    def cut(image):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "M"]
+        image.AcquisitionMatrix = [0, 15, 15, 0]
+
+    for change, header in ((cut, None), (None, {
+            "NumberOfImagesInMosaic": [1], "SliceNormalVector": [0, 0, 1]})):
+        path, _, _ = mosaic("cut", volumes=1, change=change, header=header)
+        reader, _ = read(path)
+        assert output(reader).GetNumberOfPoints() == 9 * TILE[0] * TILE[1]
+
+
+def test_mosaics_that_nothing_tells_are_suspected():
+    def measured(side, maker):
+        def change(image, _):
+            image.AcquisitionMatrix, image.Manufacturer = [side, 0, 0, side], maker
+        return change
+
+    voxels = numpy.arange(36, dtype=numpy.int16).reshape(1, 6, 6)
+    for side, maker, doubts in ((2, "SIEMENS", True), (3, "SIEMENS", False), (2, "GE", False)):
+        path = write_slices(folder("suspected"), voxels, change=measured(side, maker))
+        reader, told = read(path)
+        assert ("they may be mosaics" in told) == doubts, (side, maker, told)
+        assert output(reader).GetNumberOfPoints() == 36
+
+
+def test_short_mosaics_are_refused():
+    path = folder("short")
+    for file in glob.glob(data("dcm-qa-mosaic", "epi*.dcm")):
+        shutil.copy(file, path)
+    for name in os.listdir(path):
+        os.truncate(os.path.join(path, name), os.path.getsize(os.path.join(path, name)) - 1000)
+    reader, told = read(path)
+    assert_says(told, "need 93312")
+    assert len(scalars(reader)) == 0 if output(reader).GetPointData().GetScalars() else True
+
+
+run_tests(globals())
