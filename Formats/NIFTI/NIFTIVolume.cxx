@@ -381,10 +381,22 @@ double NIFTIVolume::storedBytes(const VolumeHeader& header) const
   return isLoaded ? 0.0 : this->Volumes * VolumeFile::storedBytes(header);
 }
 
+bool NIFTIVolume::readsParts() const
+{
+  return this->Volumes == 1;
+}
+
 void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels)
 {
   this->Error.clear();
-  this->Voxels->UpdateWholeExtent();
+  if (this->readsParts())
+  {
+    this->Voxels->UpdateExtent(voxels.wanted.data());
+  }
+  else
+  {
+    this->Voxels->UpdateWholeExtent();
+  }
   if (!this->Error.empty())
   {
     throw Problem(this->Error);

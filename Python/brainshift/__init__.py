@@ -27,6 +27,7 @@ from .judging import TargetErrors, tre
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .points import map_points, read_points
+from .pyramids import pyramid
 from .registering import (
     Alignment, Refinement, RegistrationFailed, align, refine, similarities)
 from .reporting import report
@@ -46,7 +47,8 @@ __all__ = [
     "deformed_from_rest", "dicom_patient", "direction", "electrodes", "figure", "fit", "four_views",
     "gpu",
     "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
-    "percentile_window", "pick", "read_points", "read_transform", "refine", "report", "resect",
+    "percentile_window", "pick", "pyramid", "read_points", "read_transform", "refine", "report",
+    "resect",
     "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_segmentation",
     "save_transform", "save_volume", "show_comparison", "similarities", "slice_axes", "soft",
     "stamp", "tre"]
