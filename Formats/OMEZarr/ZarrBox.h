@@ -32,8 +32,8 @@ struct ZarrDamage
 
 /**
  * Fills a box. A chunk that is not there has the fill value. One that is cut off or damaged is
- * added to `damages`, and its part stays as it was; without a list it throws the reason. Returns false if
- * `progress`, which receives the fraction that is done, says stop.
+ * added to `damages`, and its part stays as it was; without a list it throws the reason. Returns
+ * false if `progress`, which receives the fraction that is done, says stop.
  */
 bool readZarrBox(const ZarrStore& store, const ZarrArray& array, const ZarrBox& box,
   const std::function<bool(double)>& progress, std::vector<ZarrDamage>* damages = nullptr);

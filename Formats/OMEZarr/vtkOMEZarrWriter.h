@@ -3,10 +3,10 @@
  * @class   vtkOMEZarrWriter
  * @brief   writes a volume as an OME-Zarr image with all its levels, piece by piece
  *
- * The input is asked for one piece after the other, so that memory holds a volume of any
- * size whose source streams. The store is a folder: chunks of 64 x 64 x 64 voxels, packed with
- * blosc and zstd. Each coarser level has means of up to 2 x 2 x 2 voxels, whole numbers rounded; labels
- * have the most frequent one. PyramidPlan.h says which axes are halved, and what our own metadata
+ * The input is asked for one piece after the other, so that memory holds a volume of any size whose
+ * source streams. The store is a folder: chunks of 64 x 64 x 64 voxels, packed with blosc and zstd.
+ * Each coarser level has means of up to 2 x 2 x 2 voxels, whole numbers rounded; labels have the
+ * most frequent one. PyramidPlan.h says which axes are halved, and what our own metadata
  * hold: the direction matrix, the world's axes, and least and greatest values of the chunks.
  *
  * Input: an image whose point array is written, one time of it. Integers of 8 bytes become those of

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that chunks that are cut off or damaged are read from the coarser level, which is said once,
-# that one that is missing has the fill value, and that nothing else changes.
+# Proves that chunks that are cut off or damaged are read from the coarser level, which is said
+# once, that one that is missing has the fill value, and that nothing else changes.
 import os
 
 import numpy

@@ -252,6 +252,30 @@ def test_from_a_file():
             pass
 
 
+def test_parts_of_a_nifti_file():
+    """Read piece by piece, whichever way its voxels lie."""
+    import nibabel
+    values = zarr_files.values_of((66, 70, 130), "int16")
+    turned = numpy.array([[0, 0, 2.0, -5], [-3.0, 0, 0, 7], [0, 1.0, 0, 9], [0, 0, 0, 1]])
+    for affine in (numpy.diag((1.0, 2, 3, 1)), numpy.diag((-1.0, 2, 3, 1)),
+                   numpy.diag((1.0, 2, -3, 1)), turned):
+        for ending in (".nii", ".nii.gz"):
+            file = scratch("parts" + ending)
+            nibabel.save(nibabel.Nifti1Image(values, affine), file)
+            canonical = nibabel.as_closest_canonical(nibabel.load(file))
+            path = good(simple.NIFTIVolumeReader(FileName=file), MemoryLimit=0.0)
+            assert (array_of(path, "0") == numpy.asarray(canonical.dataobj).T).all(), affine
+            shown = output(simple.OMEZarrReader(FileName=path))
+            assert numpy.allclose(shown.GetOrigin(), canonical.affine[:3, 3]), affine
+
+
+def test_an_input_that_fails():
+    file = scratch("missing.nii")
+    reader = simple.NIFTIVolumeReader(FileName=file)
+    _, problem, _ = written(reader, target("none.ome.zarr"))
+    assert "gave no voxels" in problem, problem
+
+
 def test_stopped_and_gone_on_with():
     file, values = nifti()
     path = target("stopped.ome.zarr")
