@@ -13,6 +13,7 @@
 #include "vtkImageData.h"
 #include "vtkNIFTIImageHeader.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -381,10 +382,30 @@ double NIFTIVolume::storedBytes(const VolumeHeader& header) const
   return isLoaded ? 0.0 : this->Volumes * VolumeFile::storedBytes(header);
 }
 
+bool NIFTIVolume::readsParts() const
+{
+  return this->Volumes == 1 && this->Voxels->GetNumberOfScalarComponents() == 1;
+}
+
 void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels)
 {
   this->Error.clear();
-  this->Voxels->UpdateWholeExtent();
+  if (this->readsParts())
+  {
+    // VTK takes the slices of the extent as the file numbers them, and reverses these.
+    std::array<int, 6> extent = voxels.wanted;
+    if (this->reversesSlices())
+    {
+      const int last = this->Voxels->GetDataExtent()[5];
+      extent[4] = last - voxels.wanted[5];
+      extent[5] = last - voxels.wanted[4];
+    }
+    this->Voxels->UpdateExtent(extent.data());
+  }
+  else
+  {
+    this->Voxels->UpdateWholeExtent();
+  }
   if (!this->Error.empty())
   {
     throw Problem(this->Error);
@@ -394,6 +415,10 @@ void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels
     static_cast<int>(volume) * (read->GetNumberOfScalarComponents() / this->Volumes);
   voxels.image = vtkSmartPointer<vtkImageData>::New();
   voxels.image->ShallowCopy(read);
+  if (this->readsParts())
+  {
+    voxels.image->SetExtent(voxels.wanted.data());
+  }
   if (this->Volumes == 1)
   {
     read->ReleaseData(); // a time series is kept: its next step comes from it

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/OMEZarr/OMEImage.h"
 
+#include "Common/ImageGrid.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/OMEZarr/OMEUnits.h"
+#include "Formats/OMEZarr/PyramidPlan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -21,6 +24,7 @@ constexpr std::size_t MostTransformations = 16;
 struct Group
 {
   Json said = Json::object();
+  Json own; // BrainShift's own metadata
   bool isThere = false;
   bool isArray = false;
   bool isVersion3 = false; // of zarr
@@ -34,11 +38,13 @@ Group groupAt(const ZarrStore& store, const std::string& path)
     group.isThere = group.isVersion3 = true;
     group.isArray = textIn(memberOf(*json, "node_type")) == "array";
     group.said = memberOf(memberOf(*json, "attributes"), "ome");
+    group.own = memberOf(memberOf(*json, "attributes"), "brainshift");
   }
   else if (const std::optional<Json> json = readJson(store, keyIn(path, ".zattrs")))
   {
     group.isThere = true;
     group.said = *json;
+    group.own = memberOf(*json, "brainshift");
   }
   group.isThere = group.isThere || store.size(keyIn(path, ".zgroup")).has_value();
   group.isArray = group.isArray || store.size(keyIn(path, ".zarray")).has_value();
@@ -363,10 +369,52 @@ void readLabels(const Json& said, OMEImage& image)
       " labels whose values are no integers of 32 bits; their names and colours are left out");
   }
 }
+
+// ---- What BrainShift's writer adds
+
+void readOwn(const Json& own, OMEImage& image)
+{
+  constexpr std::size_t Axes = 3;
+  const Json& world = memberOf(own, "world");
+  throwIfAny(world.is_null() || world == Json("RAS")
+      ? ""
+      : "names the world " + shownJson(world) + "; BrainShift reads RAS");
+  image.knowsSides = !world.is_null();
+  const Json& rows = memberOf(own, "direction");
+  if (rows.is_null())
+  {
+    return;
+  }
+  const auto& space = image.axes.space;
+  throwIfAny(
+    rows.is_array() && rows.size() == Axes && *std::min_element(space.begin(), space.end()) >= 0
+      ? ""
+      : "has the direction " + shownJson(rows) + "; it must be three rows, of an image in x, y, z");
+  for (std::size_t row = 0; row < Axes; ++row)
+  {
+    const std::vector<double> numbers = realNumbersIn(rows[row], Axes, "direction");
+    for (std::size_t column = 0; column < Axes; ++column)
+    {
+      image.direction[static_cast<int>(column)][static_cast<int>(row)] = numbers[column];
+    }
+  }
+  const glm::dmat3 product = glm::transpose(image.direction) * image.direction;
+  for (int i = 0; i < 9; ++i)
+  {
+    const double miss = std::abs(product[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0));
+    throwIfAny(miss <= MostMissOfRotation
+        ? ""
+        : "has the direction " + shownJson(rows) + ", which is no rotation");
+  }
+}
 }
 
 std::vector<OMEChoice> imagesOf(const ZarrStore& store)
 {
+  if (store.size(UnfinishedMark))
+  {
+    throw Problem("was not written to its end; write it again under this name to go on");
+  }
   std::vector<OMEChoice> found;
   addWithLabels(store, "", found);
   const Group top = groupAt(store, "");
@@ -417,6 +465,7 @@ OMEImage readOMEImage(const ZarrStore& store, const OMEChoice& choice)
   const int type = image.levels.front().array.type.vtkType;
   image.isLabelMap = !labels.is_null() && type != VTK_FLOAT && type != VTK_DOUBLE;
   readLabels(labels, image);
+  withBeginning("has own metadata of BrainShift that ", [&] { readOwn(group.own, image); });
   return image;
 }
 }

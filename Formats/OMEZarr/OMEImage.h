@@ -8,6 +8,8 @@
 #include "Common/LabelTable.h"
 #include "Formats/OMEZarr/ZarrArray.h"
 
+#include <glm/glm.hpp>
+
 #include <array>
 
 namespace brainshift
@@ -44,6 +46,10 @@ struct OMEImage
   std::vector<std::string> channels; ///< names, as many as the store has
   bool isLabelMap = false;
   std::vector<Label> labels;
+  /// The axes of the voxels in the world, as columns; places of levels are as if it were 1. Only
+  /// BrainShift's own metadata say it.
+  glm::dmat3 direction{ 1.0 };
+  bool knowsSides = false;           ///< whether they say that the world is RAS
   std::vector<std::string> warnings; ///< ends of sentences about the store
 };
 

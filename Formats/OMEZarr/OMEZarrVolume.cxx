@@ -5,6 +5,7 @@
 #include "Common/HostMemory.h"
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
+#include "Formats/OMEZarr/CoarserVoxels.h"
 #include "Formats/OMEZarr/OMEImage.h"
 #include "Formats/OMEZarr/ZarrBox.h"
 #include "Formats/Volumes/VolumeFile.h"
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <thread>
 
 namespace brainshift
@@ -131,7 +133,9 @@ public:
     stored->SetNumberOfComponents(static_cast<int>(components));
     stored->SetNumberOfTuples(numbers / components);
     box.numbers = static_cast<char*>(stored->GetVoidPointer(0));
-    if (readZarrBox(*this->Store, array, box, progress))
+    std::vector<ZarrDamage> damages;
+    if (readZarrBox(*this->Store, array, box, progress, &damages) &&
+      this->replaceDamaged(damages, progress, voxels))
     {
       voxels.image = vtkSmartPointer<vtkImageData>::New();
       voxels.image->SetExtent(const_cast<int*>(wanted.data()));
@@ -147,6 +151,32 @@ private:
   std::size_t Level = 0;
   std::string Chosen;
   PyramidChoice Pyramid{ -1, 2048.0, -1 };
+
+  // Fills what could not be read. False: stopped.
+  bool replaceDamaged(
+    const std::vector<ZarrDamage>& damages, const Progress& progress, StoredVoxels& voxels) const
+  {
+    std::set<std::size_t> levels;
+    for (const ZarrDamage& damage : damages)
+    {
+      if (!progress(1.0))
+      {
+        return false;
+      }
+      levels.insert(fillFromCoarser(*this->Store, this->Image, this->Level, damage));
+    }
+    if (!damages.empty())
+    {
+      std::string list;
+      for (const std::size_t level : levels)
+      {
+        list += (list.empty() ? "" : ", ") + std::to_string(level);
+      }
+      voxels.warning = "cannot be read everywhere at level " + std::to_string(this->Level) + ": " +
+        damages.front().reason + "; voxels of level " + list + " are shown there";
+    }
+    return true;
+  }
 
   OMEChoice chosenImage() const
   {
@@ -254,8 +284,30 @@ private:
     {
       header.warnings.emplace_back("has no axis z; it is shown as one slice of 1 mm");
     }
-    header.knowsSides = false;
-    header.warnings.emplace_back(UnknownSidesWarning);
+    if (this->Image.direction != glm::dmat3(1.0))
+    {
+      this->turn(header.worldFromVoxel);
+    }
+    header.knowsSides = this->Image.knowsSides;
+    if (!header.knowsSides)
+    {
+      header.warnings.emplace_back(UnknownSidesWarning);
+    }
+  }
+
+  // Turns all levels about the middle of the first voxel of the finest.
+  void turn(glm::dmat4& worldFromVoxel) const
+  {
+    const OMELevel& finest = this->Image.levels.front();
+    glm::dvec3 fixed;
+    for (int i = 0; i < 3; ++i)
+    {
+      const int axis = this->Image.axes.space[static_cast<std::size_t>(i)];
+      fixed[i] = at(finest.translation, axis, 0.0) * at(this->Image.axes.units, axis, 1.0);
+      worldFromVoxel[i] = glm::dvec4(this->Image.direction[i] * worldFromVoxel[i][i], 0.0);
+    }
+    const glm::dvec3 away = glm::dvec3(worldFromVoxel[3]) - fixed;
+    worldFromVoxel[3] = glm::dvec4(fixed + this->Image.direction * away, 1.0);
   }
 
   // What may be wrong with a level without a fault in its metadata.

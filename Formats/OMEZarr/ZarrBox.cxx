@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <mutex>
 
 namespace brainshift
 {
@@ -158,10 +159,12 @@ void copyNumbers(const char* from, std::size_t bytes, const Part& part, const Za
 class BoxReader
 {
 public:
-  BoxReader(const ZarrStore& store, const ZarrArray& array, const ZarrBox& box)
+  BoxReader(const ZarrStore& store, const ZarrArray& array, const ZarrBox& box,
+    std::vector<ZarrDamage>* damages)
     : Store(store)
     , Array(array)
     , Box(box)
+    , Damages(damages)
     , Chunks(box, array.chunk)
   {
     if (this->Chunks.number() > MostChunks)
@@ -193,7 +196,12 @@ public:
       parallelFor(first, last, 1, [this](std::int64_t begin, std::int64_t end) {
         for (std::int64_t number = begin; number < end; ++number)
         {
-          this->readChunk(this->Chunks.at(number));
+          const Index chunk = this->Chunks.at(number);
+          const std::string reason = problemOf([&] { this->readChunk(chunk); });
+          if (!reason.empty())
+          {
+            this->note(chunk, reason);
+          }
         }
       });
     }
@@ -204,8 +212,30 @@ private:
   const ZarrStore& Store;
   const ZarrArray& Array;
   const ZarrBox& Box;
+  std::vector<ZarrDamage>* Damages; // null: the first is thrown
+  mutable std::mutex Noting;
   Tiles Chunks;
   std::map<Index, std::string> Indices; // of the shards that are there
+  std::map<Index, std::string> Lost;    // why the index of a shard cannot be read
+
+  void note(const Index& chunk, const std::string& reason) const
+  {
+    if (!this->Damages)
+    {
+      throw Problem(reason);
+    }
+    const Part part = partOf(this->Array, this->Box, chunk);
+    ZarrDamage damage{ this->Box, reason };
+    for (std::size_t axis = 0; axis < chunk.size(); ++axis)
+    {
+      damage.part.first[axis] =
+        std::max(chunk[axis] * this->Array.chunk[axis], this->Box.first[axis]);
+    }
+    damage.part.count = part.count;
+    damage.part.numbers += part.to * static_cast<std::int64_t>(this->Array.type.bytes);
+    const std::lock_guard<std::mutex> lock(this->Noting);
+    this->Damages->push_back(std::move(damage));
+  }
 
   Index chunksInShard() const
   {
@@ -235,8 +265,15 @@ private:
     {
       const Index shard = shards.at(number);
       const std::string key = keyOf(this->Array, shard);
-      withBeginning("shard '" + key + "' ",
-        [&] { this->readIndex(shard, key, static_cast<std::size_t>(bytes)); });
+      const std::string reason = problemOf([&] {
+        withBeginning("shard '" + key + "' ",
+          [&] { this->readIndex(shard, key, static_cast<std::size_t>(bytes)); });
+      });
+      if (!reason.empty())
+      {
+        throwIfAny(this->Damages ? std::string() : reason);
+        this->Lost[shard] = reason;
+      }
       if (!progress(static_cast<double>(number) / static_cast<double>(all)))
       {
         return false;
@@ -270,6 +307,11 @@ private:
 
   void readChunk(const Index& chunk) const
   {
+    if (!this->Lost.empty())
+    {
+      const auto lost = this->Lost.find(this->shardOf(chunk));
+      throwIfAny(lost == this->Lost.end() ? std::string() : lost->second);
+    }
     const Part part = partOf(this->Array, this->Box, chunk);
     const std::string key = this->keyOfFile(chunk);
     withBeginning(
@@ -377,8 +419,8 @@ std::string missingChunk(const ZarrStore& store, const ZarrArray& array)
 }
 
 bool readZarrBox(const ZarrStore& store, const ZarrArray& array, const ZarrBox& box,
-  const std::function<bool(double)>& progress)
+  const std::function<bool(double)>& progress, std::vector<ZarrDamage>* damages)
 {
-  return BoxReader(store, array, box).read(progress);
+  return BoxReader(store, array, box, damages).read(progress);
 }
 }

@@ -23,13 +23,20 @@ struct ZarrBox
  * if one is. */
 std::string missingChunk(const ZarrStore& store, const ZarrArray& array);
 
+/** A part of a box whose chunk is cut off or damaged. */
+struct ZarrDamage
+{
+  ZarrBox part;
+  std::string reason; ///< the end of a sentence that names the chunk
+};
+
 /**
- * Fills a box. A chunk that is not there has the fill value. One that is cut off or damaged throws
- * the end of a sentence that names it. Returns false if `progress`, which receives the fraction
- * that is done, says stop.
+ * Fills a box. A chunk that is not there has the fill value. One that is cut off or damaged is
+ * added to `damages`, and its part stays as it was; without a list it throws the reason. Returns
+ * false if `progress`, which receives the fraction that is done, says stop.
  */
 bool readZarrBox(const ZarrStore& store, const ZarrArray& array, const ZarrBox& box,
-  const std::function<bool(double)>& progress);
+  const std::function<bool(double)>& progress, std::vector<ZarrDamage>* damages = nullptr);
 }
 
 #endif

@@ -169,6 +169,11 @@ std::unique_ptr<ZarrStore> openZarrStore(const std::string& fileName)
   return store;
 }
 
+std::unique_ptr<ZarrStore> openFolderStore(const std::string& folder)
+{
+  return std::make_unique<FolderStore>(folder);
+}
+
 bool isZarrStore(const std::string& fileName)
 {
   return problemOf([&] { openZarrStore(fileName); }).empty();

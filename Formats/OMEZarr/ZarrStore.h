@@ -40,6 +40,9 @@ public:
  */
 std::unique_ptr<ZarrStore> openZarrStore(const std::string& fileName);
 
+/** A folder as a store, whatever is in it. */
+std::unique_ptr<ZarrStore> openFolderStore(const std::string& folder);
+
 /** Whether a name is one that openZarrStore takes, and there is metadata of zarr. */
 bool isZarrStore(const std::string& fileName);
 

@@ -84,6 +84,7 @@ void takeNumbers(NIFTIVolume& file, const VolumeHeader& header, Warp& warp)
       file.storedBytes(header) + 4.0 * sizeof(glm::dvec3) * static_cast<double>(count));
   });
   StoredVoxels voxels;
+  voxels.wanted = { 0, sides.x - 1, 0, sides.y - 1, 0, sides.z - 1 };
   file.load(0, [](double) { return true; }, voxels);
   vtkDataArray* stored = voxels.image->GetPointData()->GetScalars();
   if (stored->GetNumberOfComponents() != 3 ||

@@ -225,19 +225,23 @@ void PlacedVolume::requireMemory(const int extent[6]) const
   const glm::ivec3& size = this->Geometry.grid.dimensions;
   double shown = static_cast<double>(this->Header.components) *
     vtkDataArray::GetDataTypeSize(this->scalarType());
+  double part = 1.0; // of all voxels
   for (int axis = 0; axis < 3; ++axis)
   {
-    shown *= extent[2 * axis + 1] - extent[2 * axis] + 1.0;
+    const double count = extent[2 * axis + 1] - extent[2 * axis] + 1.0;
+    shown *= count;
+    part *= this->File->readsParts() ? count / size[axis] : 1.0;
   }
   requireHostMemory(std::to_string(this->Header.times.size()) + " volumes of " +
       sizeText(glm::dvec3(size)) + " voxels",
-    this->File->storedBytes(this->Header) + shown);
+    part * this->File->storedBytes(this->Header) + shown);
 }
 
 void PlacedVolume::read(
   std::size_t volume, const int extent[6], const Progress& progress, vtkImageData* image)
 {
   StoredVoxels stored;
+  this->Damage.clear();
   stored.wanted = extentInFile(extent, this->Geometry);
   withBeginning(this->sentence("cannot be read: "), [&] {
     this->requireMemory(extent);
@@ -247,6 +251,7 @@ void PlacedVolume::read(
   {
     return;
   }
+  this->Damage = stored.warning.empty() ? std::string() : this->sentence(stored.warning);
   image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
   if (isAsShown(stored, this->Geometry, this->Header))
   {

@@ -48,6 +48,9 @@ public:
    */
   void read(std::size_t volume, const int extent[6], const Progress& progress, vtkImageData* image);
 
+  /** A sentence, without a full stop, on what the last `read` could not read. Empty: nothing. */
+  const std::string& damage() const { return this->Damage; }
+
 private:
   void requireMemory(const int extent[6]) const;
   std::string sentence(const std::string& end) const;
@@ -56,6 +59,7 @@ private:
   std::unique_ptr<VolumeFile> File;
   std::string FileName;
   glm::dmat4 WorldFromFile{ 1.0 };
+  std::string Damage;
   bool Placed = false;
   VolumeHeader Header;
   RasGrid Geometry;

@@ -70,6 +70,7 @@ struct StoredVoxels
   vtkSmartPointer<vtkImageData> image; ///< null: reading was stopped
   int firstComponent = 0;              ///< of the volume that was asked for
   bool mayBeShown = false;             ///< whether nobody else keeps the numbers or changes them
+  std::string warning; ///< on these voxels, as the header's: the end of a sentence. Empty: none
 
   /** Makes the image of all voxels from these numbers. */
   void show(const glm::ivec3& dimensions, vtkDataArray* numbers);
@@ -120,6 +121,9 @@ public:
 
   /** Bytes that `load` takes beside the output. 0 if the voxels are in memory already. */
   virtual double storedBytes(const VolumeHeader& header) const;
+
+  /** Whether `load` takes memory only for the part that is wanted. Default: false. */
+  virtual bool readsParts() const { return false; }
 
   /**
    * Reads the voxels of one of the header's times, or throws the end of a sentence. The voxels get

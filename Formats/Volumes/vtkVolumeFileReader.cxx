@@ -405,6 +405,7 @@ int vtkVolumeFileReader::readHeader(vtkInformation* output)
     this->reading([this] { this->Stored->readHeader(this->FileName ? this->FileName : ""); });
   });
   this->Last.isOfHeader = false;
+  this->SaidDamage = false;
   this->IsStopped = !problem.empty() && this->GetAbortExecute();
   if (this->IsStopped)
   {
@@ -480,6 +481,11 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   if (!shown->GetPointData()->GetScalars())
   {
     return 0; // stopped
+  }
+  if (!this->Stored->damage().empty() && !this->SaidDamage)
+  {
+    this->SaidDamage = true;
+    brainshift::warn(this, this->Stored->damage());
   }
   attachMeaning(shown, this->Stored->header());
   attachFacts(this->Stored->header(), shown);

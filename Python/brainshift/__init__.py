@@ -28,6 +28,7 @@ from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .openscene import OpenedScene, open_scene
 from .points import map_points, read_points
+from .pyramids import pyramid
 from .registering import (
     Alignment, Refinement, RegistrationFailed, align, refine, similarities)
 from .reporting import report
@@ -46,7 +47,7 @@ __all__ = [
     "STAMP", "Step", "TargetErrors", "Transform", "align", "animate", "apply_transform", "batch",
     "counters", "deformed_from_rest", "dicom_patient", "direction", "electrodes", "figure", "fit",
     "four_views", "gpu", "load_field", "load_lattice", "look", "looks", "map_points", "move",
-    "open_sample", "open_scene", "percentile_window", "pick", "read_points", "read_transform",
-    "refine", "report", "resect", "rest_from_deformed", "save_dicom", "save_field", "save_lattice",
-    "save_scene", "save_segmentation", "save_transform", "save_volume", "show_comparison",
-    "similarities", "slice_axes", "soft", "stamp", "tre"]
+    "open_sample", "open_scene", "percentile_window", "pick", "pyramid", "read_points",
+    "read_transform", "refine", "report", "resect", "rest_from_deformed", "save_dicom",
+    "save_field", "save_lattice", "save_scene", "save_segmentation", "save_transform",
+    "save_volume", "show_comparison", "similarities", "slice_axes", "soft", "stamp", "tre"]

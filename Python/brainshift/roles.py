@@ -262,11 +262,10 @@ def proposed(paths):
     return sorted(found, key=lambda one: one.file)
 
 
-def open_file(path, **properties):
-    """A ParaView source of a file. Raises `FileNotFoundError` or `ValueError` with the reason."""
+def reader_of(path, **properties):
+    """A ParaView source of a file, which has not read it. Raises `FileNotFoundError`, and
+    `ValueError` if the format is not known."""
     from paraview import servermanager, simple
-
-    from .files import reason_of
 
     path = os.fspath(path)
     if not (os.path.exists(path) or servermanager.ActiveConnection.IsRemote()):
@@ -275,12 +274,24 @@ def open_file(path, **properties):
         source = simple.LandmarkReader(FileName=path, **properties)
     elif ending(path) in (".nii", ".nii.gz"):
         source = simple.NIFTIVolumeReader(FileName=path)
+    elif path.rstrip("/").lower().endswith(".zarr"):
+        source = simple.OMEZarrReader(FileName=path)
     elif os.path.isdir(path):
         source = simple.DICOMVolumeReader(FileName=path)
     else:
         source = simple.OpenDataFile(path)
     if source is None:
         raise ValueError(f"{path} has a format that ParaView does not read")
+    return source
+
+
+def open_file(path, **properties):
+    """A ParaView source of a file. Raises `FileNotFoundError` or `ValueError` with the reason."""
+    from paraview import simple
+
+    from .files import reason_of
+
+    source = reader_of(path, **properties)
     source.UpdatePipeline()
     problem = reason_of(source) if source.SMProxy.GetProperty("Problem") else ""
     if problem or source.GetDataInformation().GetNumberOfPoints() == 0:

@@ -14,6 +14,7 @@
 #include "vtkLandmarkReader.h"
 #include "vtkLandmarkWriter.h"
 #include "vtkMoments.h"
+#include "vtkOMEZarrWriter.h"
 #include "vtkRefinedLattice.h"
 #include "vtkRegistrationRun.h"
 #include "vtkResection.h"
@@ -273,6 +274,11 @@ TEST(Defaults, OfVolumeFilesLiveInTheClass)
   const Defaults expected{ { "World", { double(writer->GetWorld()) } } };
   EXPECT_EQ(defaultsIn("Formats/Writers/MedicalVolumeWriter.xml"), expected);
   EXPECT_EQ(defaultsIn("Formats/Writers/MedicalSeriesWriter.xml"), expected);
+  vtkNew<vtkOMEZarrWriter> pyramids;
+  const Defaults ofPyramids{ { "World", { double(pyramids->GetWorld()) } },
+    { "Version", { double(pyramids->GetVersion()) } },
+    { "MemoryLimit", { pyramids->GetMemoryLimit() } } };
+  EXPECT_EQ(defaultsIn("Formats/OMEZarr/OMEZarrWriter.xml"), ofPyramids);
 }
 
 TEST(Defaults, OfTransformPointsLiveInTheClass)

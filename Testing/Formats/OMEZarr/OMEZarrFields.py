@@ -71,6 +71,7 @@ def test_fields_of_version_2():
         "version": other(GROUP, *image, "version", "0.3"),
         "omero": other(GROUP, "omero", "channels", 0, "label", "c"),
         "image-label": other(GROUP, "image-label", "colors", 0, "rgba", [9, 2, 3, 255]),
+        "brainshift": other(GROUP, "brainshift", {"world": "RAS"}),
         "type": other(GROUP, *image, "type", "gaussian"),
         "metadata": other(GROUP, *image, "metadata", {"method": "other"})}
     changed = {name: [store(ARRAY), store(ARRAY, group)] for name, group in changes.items()}

@@ -141,6 +141,21 @@ def test_metadata_of_ome():
         group_says("datasets", (("datasets",), datasets))
 
 
+def test_own_metadata():
+    for own, word in (({"world": "LPS"}, "the world"), ({"world": 3}, "the world"),
+                      ({"direction": 3}, "three rows"), ({"direction": [[1, 0, 0]]}, "three rows"),
+                      ({"direction": [[1, 0, 0], [0, 1, 0], [0, 0]]}, "finite numbers"),
+                      ({"direction": [[1, 0, 0], [0, 1, 0], [0, 0, None]]}, "finite numbers"),
+                      ({"direction": [[1, 0, 0], [0, 1, 0], [0, 0, 2]]}, "no rotation"),
+                      ({"direction": [[0, 0, 0]] * 3}, "no rotation")):
+        path = made(values_of(SHAPE, "uint16"), version=2)
+        remade(path, ".zattrs", (("brainshift",), own))
+        says(path, word)
+    path = made(values_of(SHAPE, "uint16"), version=2)
+    put(path, "brainshift-unfinished.json", {})
+    says(path, "not written to its end")
+
+
 def test_paths_stay_in_the_store():
     outside = fresh("outside.zarr")
     zarr_files.write_array(outside, "0", values_of(SHAPE, "uint16"), 2)

@@ -6,6 +6,7 @@ numpy make of the metadata.
 """
 
 import json
+import math
 import os
 import shutil
 import zipfile
@@ -50,6 +51,27 @@ def write(random, path):
         more["coordinateTransformations"] = zarr_files.level(
             "", [random.choice((0.5, 1.0, 2.5)) for _ in axes])["coordinateTransformations"]
     zarr_files.describe(path, datasets, axes, version, more)
+    if random.random() < 0.3:
+        _add_own(random, path)
+
+
+def _add_own(random, path):
+    """What BrainShift's writer adds."""
+    angle = random.uniform(-0.6, 0.6)
+    cosine, sine = math.cos(angle), math.sin(angle)
+    own = random.choice([
+        {"world": "RAS"}, {"direction": [[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]]}])
+    file, said = group_of(path)
+    (said["attributes"] if "attributes" in said else said)["brainshift"] = own
+    zarr_files.put(path, os.path.basename(file), said)
+
+
+def group_of(path):
+    """The file of the group's metadata, and its json."""
+    third = os.path.join(path, "zarr.json")
+    name = third if os.path.exists(third) else os.path.join(path, ".zattrs")
+    with open(name, encoding="utf-8") as file:
+        return name, json.load(file)
 
 
 def files_in(path):
@@ -123,16 +145,8 @@ def require_separator(name):
             raise Open
 
 
-def judged(path, shown):
-    """World places of voxels, and their numbers as [x, y, z, component], of a level, by json, numpy
-    and zarr-python. It raises what they raise."""
-    third = os.path.join(path, "zarr.json")
-    with open(third if os.path.exists(third) else os.path.join(path, ".zattrs"),
-              encoding="utf-8") as file:
-        said = json.load(file)
-    image = (said["attributes"]["ome"] if "attributes" in said else said)["multiscales"][0]
-    dataset = image["datasets"][shown]
-    axes = image["axes"]
+def transformed(image, dataset, axes):
+    """(scale, translation) along the axes of a level."""
     scale, shift = numpy.ones(len(axes)), numpy.zeros(len(axes))
     for step in [*dataset["coordinateTransformations"],
                  *(image.get("coordinateTransformations") or [])]:
@@ -140,6 +154,21 @@ def judged(path, shown):
             scale, shift = scale * step["scale"], shift * step["scale"]
         elif step["type"] == "translation":
             shift = shift + step["translation"]
+    return scale, shift
+
+
+def judged(path, shown):
+    """World places of voxels, and their numbers as [x, y, z, component], of a level, by json, numpy
+    and zarr-python. It raises what they raise."""
+    said = group_of(path)[1]
+    image = (said["attributes"]["ome"] if "attributes" in said else said)["multiscales"][0]
+    own = said.get("attributes", said).get("brainshift")
+    rows = (own.get("direction") if isinstance(own, dict) else None)
+    direction = numpy.eye(3) if rows is None else numpy.array(rows, float)
+    dataset = image["datasets"][shown]
+    axes = image["axes"]
+    scale, shift = transformed(image, dataset, axes)
+    fixed = transformed(image, image["datasets"][0], axes)[1]
     require_separator(os.path.join(path, dataset["path"], "zarr.json"))
     values = zarr.open_array(os.path.join(path, dataset["path"]), mode="r")[...]
     names = [axis["name"] for axis in axes]
@@ -152,7 +181,9 @@ def judged(path, shown):
     place = [names.index(name) for name in "xyz"]
 
     def world(index):
-        return (numpy.array(index) * scale[place] + shift[place]) * units
+        plain = (numpy.array(index) * scale[place] + shift[place]) * units
+        first = fixed[place] * units
+        return plain if rows is None else first + direction @ (plain - first)
     return world, values if values.ndim == 4 else values[..., None]
 
 

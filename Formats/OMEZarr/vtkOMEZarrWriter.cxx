@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkOMEZarrWriter.h"
+
+#include "Common/Guard.h"
+#include "Common/ImageGrid.h"
+#include "Formats/Files/Text.h"
+#include "Formats/OMEZarr/PyramidStore.h"
+#include "Formats/OMEZarr/SourceFacts.h"
+#include "Formats/Volumes/OutgoingVolume.h"
+
+#include "vtkDataArray.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+using namespace brainshift;
+
+namespace
+{
+using SDDP = vtkStreamingDemandDrivenPipeline;
+
+constexpr double BytesInMiB = 1048576.0;
+constexpr double FractionOfFinest = 0.85; // of the time
+
+struct Piece
+{
+  std::array<int, 6> extent;
+
+  Size3 first() const { return { this->extent[0], this->extent[2], this->extent[4] }; }
+  Size3 size() const
+  {
+    return Size3(this->extent[1], this->extent[3], this->extent[5]) - this->first() +
+      std::int64_t(1);
+  }
+};
+
+// Voxels along an axis that a piece may have: whole chunks.
+int depthOf(double bytesOfLayer, double limit)
+{
+  const int chunks = static_cast<int>(std::min(limit / (bytesOfLayer * double(PyramidChunk)), 1e6));
+  return static_cast<int>(PyramidChunk) * std::max(1, chunks);
+}
+
+// Slabs along z; where one of a chunk's depth is too large, bars along y. The one in the middle is
+// the first: the others may not be asked for.
+std::vector<Piece> piecesOf(const int whole[6], double bytesOfVoxel, double limit)
+{
+  const double row = bytesOfVoxel * (whole[1] - whole[0] + 1.0);
+  const double slice = row * (whole[3] - whole[2] + 1.0);
+  const int depth = depthOf(slice, limit);
+  const int step = slice * double(PyramidChunk) > limit ? depthOf(row * double(PyramidChunk), limit)
+                                                        : whole[3] - whole[2] + 1;
+  std::vector<Piece> pieces;
+  for (std::int64_t z = whole[4]; z <= whole[5]; z += depth)
+  {
+    for (std::int64_t y = whole[2]; y <= whole[3]; y += step)
+    {
+      pieces.push_back({ { whole[0], whole[1], static_cast<int>(y),
+        static_cast<int>(std::min<std::int64_t>(y + step - 1, whole[3])), static_cast<int>(z),
+        static_cast<int>(std::min<std::int64_t>(z + depth - 1, whole[5])) } });
+    }
+  }
+  std::rotate(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2),
+    pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2) + 1);
+  return pieces;
+}
+
+double bytesOfVoxel(vtkInformation* input)
+{
+  vtkInformation* scalars = vtkDataObject::GetActiveFieldInformation(
+    input, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  constexpr double Most = 8.0;
+  if (!scalars || !scalars->Has(vtkDataObject::FIELD_ARRAY_TYPE()))
+  {
+    return Most;
+  }
+  const int components = scalars->Has(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS())
+    ? scalars->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS())
+    : 1;
+  return std::max(1, components) *
+    static_cast<double>(
+      std::max(1, vtkDataArray::GetDataTypeSize(scalars->Get(vtkDataObject::FIELD_ARRAY_TYPE()))));
+}
+
+// The grid of all voxels, of which an image has some.
+Grid wholeGridOf(vtkImageData* image, const int whole[6], bool isLPS)
+{
+  vtkNew<vtkImageData> all;
+  all->SetExtent(const_cast<int*>(whole));
+  all->SetOrigin(image->GetOrigin());
+  all->SetSpacing(image->GetSpacing());
+  all->SetDirectionMatrix(image->GetDirectionMatrix());
+  Grid grid = gridOf(all);
+  withBeginning("The input's ", [&] { throwIfAny(problemOfGrid(grid)); });
+  return isLPS ? withReversedXY(grid) : grid;
+}
+
+// The numbers of a piece in an image that may have more.
+VoxelBox boxOf(vtkImageData* image, const OutgoingVolume& volume, const Piece& piece)
+{
+  int extent[6];
+  image->GetExtent(extent);
+  for (std::size_t end = 0; end < 6; end += 2)
+  {
+    if (piece.extent[end] < extent[end] || piece.extent[end + 1] > extent[end + 1])
+    {
+      throw Problem("The input did not give the voxels that were asked for");
+    }
+  }
+  const Size3 has(extent[1] - extent[0] + 1, extent[3] - extent[2] + 1, extent[5] - extent[4] + 1);
+  const std::int64_t components = volume.components();
+  VoxelBox box;
+  box.size = piece.size();
+  box.steps = { components, components * has.x, components * has.x * has.y };
+  const Size3 away = piece.first() - Size3(extent[0], extent[2], extent[4]);
+  box.first = volume.bytes() +
+    (away.x * box.steps.x + away.y * box.steps.y + away.z * box.steps.z) * volume.type.bytes;
+  return box;
+}
+}
+
+struct vtkOMEZarrWriter::Run
+{
+  std::array<int, 6> whole{};
+  std::vector<Piece> pieces;
+  std::size_t next = 0;
+  std::unique_ptr<PyramidStore> store;
+  std::string warning;
+};
+
+vtkStandardNewMacro(vtkOMEZarrWriter);
+brainshiftGuardRequestsMacro(vtkOMEZarrWriter);
+
+vtkOMEZarrWriter::vtkOMEZarrWriter() = default;
+vtkOMEZarrWriter::~vtkOMEZarrWriter() = default;
+
+int vtkOMEZarrWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+int vtkOMEZarrWriter::Write()
+{
+  this->Work.reset();
+  this->PiecesKept = 0;
+  const std::string failed =
+    "Store " + this->FileName + " was not finished: the input gave no voxels where it was asked";
+  this->Problem = failed; // until a piece comes
+  const int result = this->Superclass::Write();
+  if (this->Work) // the input failed after some pieces
+  {
+    this->Work.reset();
+    this->Problem = failed;
+  }
+  if (!this->Problem.empty())
+  {
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+    return 0;
+  }
+  return result;
+}
+
+int vtkOMEZarrWriter::ModifyRequest(vtkInformation* request, int when)
+{
+  if (when == vtkExecutive::BeforeForward && request->Has(SDDP::REQUEST_UPDATE_EXTENT()))
+  {
+    guarded(this, [this] { this->AskForPiece(); });
+  }
+  return this->Superclass::ModifyRequest(request, when);
+}
+
+void vtkOMEZarrWriter::AskForPiece()
+{
+  vtkInformation* input = this->GetInputInformation(0, 0);
+  if (!input || !input->Has(SDDP::WHOLE_EXTENT()))
+  {
+    return;
+  }
+  if (!this->Work)
+  {
+    this->Work = std::make_unique<Run>();
+    input->Get(SDDP::WHOLE_EXTENT(), this->Work->whole.data());
+    this->Work->pieces =
+      piecesOf(this->Work->whole.data(), bytesOfVoxel(input), this->MemoryLimit * BytesInMiB);
+  }
+  if (this->Work->next < this->Work->pieces.size())
+  {
+    input->Set(SDDP::UPDATE_EXTENT(), this->Work->pieces[this->Work->next].extent.data(), 6);
+  }
+}
+
+int vtkOMEZarrWriter::RequestData(
+  vtkInformation* request, vtkInformationVector**, vtkInformationVector*)
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  bool goesOn = false;
+  this->Problem = sentenceThrownBy(
+    "Store " + this->FileName + " cannot be written:", [&] { goesOn = this->TakePiece(); });
+  if (goesOn)
+  {
+    request->Set(SDDP::CONTINUE_EXECUTING(), 1);
+    return 1;
+  }
+  request->Remove(SDDP::CONTINUE_EXECUTING());
+  this->Work.reset();
+  if (!this->Problem.empty())
+  {
+    vtkErrorMacro(<< this->Problem << ".");
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+  }
+  return 1;
+}
+
+// Whether there is a piece more.
+bool vtkOMEZarrWriter::TakePiece()
+{
+  auto* image = vtkImageData::SafeDownCast(this->GetInput());
+  if (!this->Work || this->Work->pieces.empty() || !image)
+  {
+    throw brainshift::Problem("The input has no voxels");
+  }
+  if (!isFirstRank())
+  {
+    return ++this->Work->next < this->Work->pieces.size();
+  }
+  OutgoingVolume volume;
+  std::string warning;
+  takeOut(image, this->PointArray, static_cast<WorldAxes>(this->World), volume, warning);
+  const Piece& piece = this->Work->pieces[this->Work->next];
+  const VoxelBox box = boxOf(image, volume, piece);
+  if (!this->Work->store)
+  {
+    this->Begin(volume, box);
+    this->Work->warning = warning;
+  }
+  const int* whole = this->Work->whole.data();
+  const PyramidPiece part{ piece.first() - Size3(whole[0], whole[2], whole[4]), box };
+  const double pieces = static_cast<double>(this->Work->pieces.size());
+  const double done = static_cast<double>(this->Work->next) / pieces;
+  this->RequireGoing(this->Work->store->write(part,
+    [&](double fraction) { return this->Go(FractionOfFinest * (done + fraction / pieces)); }));
+  if (this->NextPiece())
+  {
+    return true;
+  }
+  this->RequireGoing(this->Work->store->finish([this](double fraction) {
+    return this->Go(FractionOfFinest + (1.0 - FractionOfFinest) * fraction);
+  }));
+  if (!this->Work->warning.empty())
+  {
+    warn(this, "Store " + this->FileName + ": " + this->Work->warning);
+  }
+  return false;
+}
+
+// The first piece is there, and with it the type of the numbers.
+void vtkOMEZarrWriter::Begin(const OutgoingVolume& volume, const VoxelBox& box)
+{
+  throwIfAny(this->FileName.empty() ? "The name of the store to write is missing" : "");
+  auto* image = vtkImageData::SafeDownCast(this->GetInput());
+  PyramidContent content;
+  const bool isLPS = this->World == int(WorldAxes::LPS) ||
+    (this->World == int(WorldAxes::Unknown) && worldAxesOf(image) == WorldAxes::LPS);
+  content.grid = wholeGridOf(image, this->Work->whole.data(), isLPS);
+  content.type = volume.numbers->GetDataType();
+  content.components = volume.components();
+  content.knowsSides = volume.knowsSides;
+  content.isLabelMap = volume.isLabelMap;
+  content.labels = volume.isLabelMap ? attachedLabels(image) : std::vector<Label>();
+  content.isVersion3 = this->Version == 1;
+  for (int i = 0; i < content.components && volume.numbers->HasAComponentName(); ++i)
+  {
+    const char* name = volume.numbers->GetComponentName(i);
+    content.channels.emplace_back(name ? name : std::to_string(i));
+  }
+  const std::string source = sourceFacts(this->GetInputAlgorithm(0, 0), this->Source);
+  const std::string identity = source.empty()
+    ? std::string()
+    : source + gridFacts(content, image) + hashFacts(content.type, box);
+  withBeginning("Store " + this->FileName + " cannot be written: ",
+    [&] { this->Work->store = std::make_unique<PyramidStore>(this->FileName, content, identity); });
+}
+
+// Goes on to the next piece that is not written. False: there is none.
+bool vtkOMEZarrWriter::NextPiece()
+{
+  const int* whole = this->Work->whole.data();
+  for (++this->Work->next; this->Work->next < this->Work->pieces.size(); ++this->Work->next)
+  {
+    const Piece& piece = this->Work->pieces[this->Work->next];
+    if (!this->Work->store->isThere(
+          piece.first() - Size3(whole[0], whole[2], whole[4]), piece.size()))
+    {
+      return true;
+    }
+    ++this->PiecesKept;
+    this->RequireGoing(this->Go(FractionOfFinest * static_cast<double>(this->Work->next) /
+      static_cast<double>(this->Work->pieces.size())));
+  }
+  return false;
+}
+
+bool vtkOMEZarrWriter::Go(double fraction)
+{
+  this->UpdateProgress(fraction);
+  return !this->CheckAbort();
+}
+
+void vtkOMEZarrWriter::RequireGoing(bool goes) const
+{
+  throwIfAny(goes ? std::string()
+                  : "Store " + this->FileName +
+        " was stopped before its end; write it again under this name to go on");
+}
+
+void vtkOMEZarrWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n"
+     << indent << "PointArray: " << this->PointArray << "\n"
+     << indent << "World: " << this->World << "\n"
+     << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
+     << indent << "Version: " << this->Version << "\n"
+     << indent << "Source: " << this->Source << "\n";
+}
