@@ -131,6 +131,36 @@ def test_steps_say_what_they_lack_and_found():
     assert_says(repr(case), "Case with volume, brain", "Fit: done")
 
 
+def test_what_may_be_wrong_is_marked_and_said():
+    clear()
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),
+                           traces=path("pointer.csv"))
+    assert case.doubts() == [] and case.doubtful() == set()
+    case.run("Fit")
+    case.reference = path("sub-1_postop.nii.gz")
+    assert case.doubtful() == set(), case.doubts()
+
+    def said(step, *words):
+        assert step in case.doubtful(), case.doubts()
+        found = next(one for one in case.steps if one.name == step)
+        assert_says(found.found, *words)
+        assert found.found.count(words[0]) == 1, found.found
+        return found.state
+    table(path("far.csv"), "xyz", (sunk(cap(150)) + (0, 0, 25)).tolist())
+    case.traces = path("far.csv")
+    assert said("Fit", "The fold guard applied") == "done" and case.fit_source().Share < 1.0
+    case.traces = path("pointer.csv")
+    assert case.doubtful() == set(), case.doubts()
+    case.bent.GuardFolding = 0
+    case.bent.Strokes = brainshift.soft(TOP, (0, 0, -60), 15)
+    assert said("By hand", "folds", "Jacobian determinant is -") == "done"
+    case.bent.Strokes = []
+    assert case.doubtful() == set(), case.doubts()
+    with mock.patch.object(type(case), "comparison", new_callable=mock.PropertyMock) as compared:
+        compared.return_value.GetPropertyValue.return_value = "The reference has other axes"
+        assert said("Refine", "The reference has other axes") == "ready"
+
+
 def test_other_traces_are_fitted_at_once():
     clear()
     table(path("second.csv"), "xyz", cap(100).tolist())
@@ -176,7 +206,14 @@ def test_electrodes_are_fitted_by_their_sheet():
     print(f"tissue under the contacts {off.mean():.2f} mm off")
     assert off.mean() < 1.5, off
     assert len(used.left_out_of_used) == 19, used.left_out_of_used
-    assert_says(case.steps[2].found, "19 contacts of grids", "G7", "above")
+    found = case.steps[2].found
+    assert_says(found, "19 contacts of grids", "G7", "above")
+    simple.SaveState(scratch("grid.pvsm"))
+    clear()
+    simple.LoadState(scratch("grid.pvsm"))
+    case, = brainshift.Case.all()
+    fit = case.bent.Lattice
+    assert "Fit" in case.doubtful() and case.steps[2].found == found, case.steps[2]
     refused(ValueError, ["electrodes must not be made of"],
             lambda: setattr(case, "electrodes", case.part("at_rest")))
     case.judged = "a line"
