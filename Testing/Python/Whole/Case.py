@@ -8,11 +8,12 @@ import shutil
 from unittest import mock
 
 import numpy
-from brainshift_testing import (assert_says, ball, load_plugin, messages, run_tests, scratch,
+from brainshift_testing import (assert_says, ball, data, load_plugin, messages, run_tests, scratch,
                                 volume)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift import casesources  # noqa: E402
 from brainshift.points import read_from  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 from patient_testing import (MIDDLE, RADIUS, TOP, cap, make_patient, sunk,  # noqa: E402
@@ -361,6 +362,53 @@ def test_results_are_forgotten_when_the_case_changes():
         filled()
         change()
         assert found() == (False, False, False), number
+
+
+def test_results_are_forgotten_when_a_file_of_the_volume_changes():
+    folder = scratch("rewritten")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    scan = os.path.join(folder, "scan.dcm")
+    shutil.copy(data("pydicom-data", "emri_small_jpeg_ls_lossless.dcm"), scan)
+    parts = [os.path.join(folder, f"part_{number}.vti") for number in range(3)]
+    for part in parts:
+        simple.SaveData(part, proxy=volume(ball(21)))
+    for open_volume, changed in (
+            (lambda: simple.DICOMVolumeReader(FileName=folder), scan),
+            (lambda: simple.DICOMVolumeReader(FileName=scan), parts[0]),  # its folder is read
+            (lambda: simple.XMLImageDataReader(FileName=parts), parts[2])):
+        clear()
+        case = brainshift.Case(volume=open_volume())
+        case.judged = "a line"
+        simple.SaveState(scratch("rewritten.pvsm"))
+        assert case.judged == "a line"
+        os.utime(changed, ns=(1, 1))
+        casesources._seen.clear()  # as a moment later
+        assert case.judged is None, changed
+        clear()
+        simple.LoadState(scratch("rewritten.pvsm"))
+        again, = brainshift.Case.all()
+        assert again.judged is None, changed
+        again.judged = "another"
+        simple.SaveState(scratch("rewritten.pvsm"))
+        clear()
+        simple.LoadState(scratch("rewritten.pvsm"))
+        assert brainshift.Case.all()[0].judged == "another", "nothing was written since"
+
+
+def test_files_that_count_are_those_that_are_read():
+    folder = scratch("written")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(os.path.join(folder, "below"))
+    files = [os.path.join(folder, name) for name in ("a.dcm", "below/b.dcm", "c.nhdr", "c.raw")]
+    for file in files:
+        with open(file, "wb") as kept:
+            kept.write(b"x")
+
+    def count(path):
+        return len(casesources._written(path))
+    assert count(folder) == 4 and count(files[0]) == 1, "of a folder those below it, too"
+    assert count(files[2]) == 2 and count(folder + "/none") == 0, "data beside a header"
 
 
 def test_columns_of_landmarks_are_taken_by_their_names():
