@@ -95,6 +95,15 @@ def settings_at(bent):
             if key.startswith(SETTING)}
 
 
+def upstream(source):
+    """A source and those that it is made of, as far as a case opened them."""
+    found = []
+    while source is not None and source.SMProxy.HasAnnotation(OPENED):
+        found.append(source)
+        source = getattr(source, "Input", None)
+    return found
+
+
 def inputs_of(source):
     """All proxies that a source is made of, by their numbers, and the source itself."""
     found, waiting = {}, [source.SMProxy]
@@ -137,6 +146,16 @@ def values_of(source):
 
 def _list_of(value):
     return [value] if isinstance(value, str) else list(value or ())
+
+
+def paths_of(source):
+    """The paths of the files of a source, or of the source that its points were chosen from."""
+    for each in (source, *upstream(source)):
+        value = next((getattr(each, name) for name in FILE_PROPERTIES
+                      if getattr(each, name, None)), None)
+        if value:
+            return _list_of(value)
+    return []
 
 
 def digest_of(state):

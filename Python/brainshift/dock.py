@@ -217,11 +217,12 @@ def _set(case, name, value):
     former = [points for points in (case.traces, *(each.part("timed") for each in case.moments))
               if view and _is_shown(points, view)]
     setattr(case, name, value)
-    if former and case.traced not in former:  # points of another moment would be seen
+    now = case.traces_now()
+    if former and now not in former:  # points of another moment would be seen
         for points in former:
             simple.Hide(points, view)
-        if case.traced is not None:
-            _show_points(case.traced, view, _ORANGE)
+        if now is not None:
+            _show_points(now, view, _ORANGE)
 
 
 def _set_sphere(case, numbers=()):

@@ -8,6 +8,7 @@ import os
 from html import escape
 
 from . import scenes
+from .casesources import paths_of
 from .drawing import png
 from .figures import _strength_kept, _versions
 from .files import figures_of
@@ -230,14 +231,6 @@ def _settings(case):
 # Files --------------------------------------------------------------------------------------------
 
 
-def _paths(source):
-    for name in ("FileName", "FileNames"):
-        value = getattr(source, name, None)
-        if value:
-            return [value] if isinstance(value, str) else list(value)
-    return []
-
-
 def sha256(path):
     """The SHA-256 hash of a file, or of a folder: that of the hashes of its files by name."""
     total = hashlib.sha256()
@@ -269,8 +262,8 @@ def _files(case, names):
     rows = []
     for role in (*ROLES, "measured"):
         source = case.part(role)
-        for path in _paths(source) if source is not None else []:
-            if role == "measured" and path in _paths(case.part("landmarks")):
+        for path in paths_of(source) if source is not None else []:
+            if role == "measured" and path in paths_of(case.part("landmarks")):
                 continue  # one file with both
             known = os.path.exists(path)
             kind = "DICOM series" if known and os.path.isdir(path) else ending(path) or "file"
