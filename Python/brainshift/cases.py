@@ -7,7 +7,7 @@ import uuid
 
 from .arguments import positive, vector
 from .casesources import (
-    MARK, OPENED, RESULT, SETTING, digest_of, free_name, inputs_of, kept, marks, opened,
+    MARK, OPENED, RESULT, SETTING, digest_of, free_name, give_name, inputs_of, kept, marks, opened,
     require_kind, settings_at, sources, stem, upstream, values_of)
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
@@ -341,7 +341,7 @@ class Case(Steps, Moments, TimedTraces, Resections):
                 self._keep("opening_ball", None)
         self._wire()
         for source, name in self._unnamed:  # now former sources have given their names back
-            simple.RenameSource(free_name(name), source)
+            give_name(source, name)
         self._unnamed = []
         shared = ("brain", "tumour", *(["traces"] if self.traces_by_time else []))
         for case in self.moments if role in shared else ():

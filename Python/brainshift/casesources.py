@@ -13,9 +13,10 @@ from .roles import ending, open_file
 
 #: Annotations of proxies, which state files keep: `MARK` + role + "." + name of the case; at the
 #: Free-Form Deformation `SETTING` + name, a setting as JSON, and `RESULT` + name, a result and the
-#: state of the case that it is of; `OPENED` at sources that a case opened itself.
+#: state of the case that it is of; `OPENED` at sources that a case opened itself, and `NAME` the
+#: name that it gave them.
 MARK, SETTING, OPENED = "BrainShift.Case.", "BrainShift.CaseSetting.", "BrainShift.CaseOpened"
-RESULT = "BrainShift.CaseResult."
+RESULT, NAME = "BrainShift.CaseResult.", "BrainShift.CaseName"
 
 #: Properties of readers that name files or folders.
 FILE_PROPERTIES = ("FileName", "FileNames")
@@ -54,6 +55,19 @@ def stem(source):
             base = os.path.basename(os.path.normpath(path))
             return base[:len(base) - len(ending(path))] if ending(path) else base
     return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or "volume"
+
+
+def give_name(source, name=None):
+    """Gives a source a name, if no other has it, and keeps it at the source. Without a name: the
+    one that it was given before, or that of its file."""
+    from paraview import simple
+
+    proxy = source.SMProxy
+    kept_name = proxy.GetAnnotation(NAME) if proxy.HasAnnotation(NAME) else stem(source)
+    free = free_name(name or kept_name)
+    simple.RenameSource(free, source)
+    if name:
+        proxy.SetAnnotation(NAME, free)
 
 
 def opened(path, role, **properties):

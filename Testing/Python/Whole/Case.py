@@ -2,6 +2,7 @@
 # Proves that a case makes one pipeline from its roles in any order, that steps say what they lack
 # and what they found, that a folder is sorted with reasons and never silently, and that a state
 # keeps all of it.
+import json
 import os
 import shutil
 
@@ -13,7 +14,7 @@ from brainshift_testing import (assert_says, ball, data, load_plugin, messages, 
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from brainshift import casesources  # noqa: E402
+from brainshift import casesources, dock  # noqa: E402
 from brainshift.points import read_from  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 from patient_testing import (MIDDLE, RADIUS, TOP, cap, make_patient, sunk,  # noqa: E402
@@ -394,6 +395,23 @@ def test_results_are_forgotten_when_a_file_of_the_volume_changes():
         clear()
         simple.LoadState(scratch("rewritten.pvsm"))
         assert brainshift.Case.all()[0].judged == "another", "nothing was written since"
+
+
+def test_names_come_back_to_their_sources():
+    clear()
+    files = []
+    for folder in ("before", "after"):
+        os.makedirs(scratch(folder), exist_ok=True)
+        files.append(os.path.join(scratch(folder), "T1.nii.gz"))
+        shutil.copy(path("sub-1_T1w.nii.gz"), files[-1])
+    case = brainshift.Case(volume=files[0], reference=files[1], traces=path("pointer.csv"))
+    wanted = ["T1", "T1 2", "traced points"]
+    for names_of_dialog in (("b T1.nii.gz", "a T1.nii.gz"), ("a T1.nii.gz", "b T1.nii.gz")):
+        for role, name in zip(("volume", "reference"), names_of_dialog):  # as ParaView's dialog
+            simple.RenameSource(name, case.part(role))
+        simple.RenameSource("pointer.csv", case.traces)
+        dock.answer(json.dumps({"order": "tell"}))
+        assert [dock._name(case.part(role)) for role in ("volume", "reference", "traces")] == wanted
 
 
 def test_files_that_count_are_those_that_are_read():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that the moments of a surgery share what is known before it, have measurements and a fit of
 # their own, are time steps that play, and come back with a state.
+import json
 import os
 
 import numpy
@@ -9,6 +10,7 @@ from brainshift_testing import assert_says, field, load_plugin, run_tests, scrat
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import simple  # noqa: E402
+from brainshift import dock  # noqa: E402
 from brainshift.casesources import paths_of  # noqa: E402
 from brainshift.points import read_from  # noqa: E402
 from patient_testing import TOP, cap, make_patient, refused, table  # noqa: E402
@@ -272,6 +274,20 @@ def test_traces_without_time_stamps_are_refused_as_those_of_all_moments():
     assert second.traces is not None and second.traces == first.traces
     timed = first.part("timed")
     refused(["traces must not be made of"], lambda: setattr(second, "traces", timed))
+
+
+def test_the_dock_takes_up_the_moment_that_is_seen():
+    first, second = begun()
+    view = simple.GetActiveViewOrCreate("RenderView")
+    for show, at, wanted in ((second.show_moments, 95.0, second), (first.show_moments, 0.0, first),
+                             (second.show_moments, 40.0, first), (second.show, 0.0, second)):
+        show(view)
+        view.ViewTime = at
+        if show == second.show:
+            simple.Hide(first.part("moments"), view)
+        dock._in_hand.update(case=None, former=None)
+        told = json.loads(dock.answer(json.dumps({"order": "tell"})))
+        assert told["told"]["case"] == wanted.name, (at, view.ViewTime, told["problem"])
 
 
 def test_points_in_one_cell_are_told_apart_as_well():
