@@ -10,6 +10,8 @@ namespace
 {
 constexpr int MostTries = 24;  // halvings of the range of cell sizes
 constexpr double Enough = 0.1; // fraction of the wanted number by which the choice may miss it
+constexpr double RimMm = 8.0;  // width of the rim beside the opening, and distance of its anchors
+constexpr std::size_t MostOfRim = 2; // one anchor in so many may be of the rim
 
 using Cell = std::tuple<double, double, double>;
 
@@ -47,6 +49,84 @@ std::vector<SurfacePoint> picked(
   }
   return result;
 }
+
+// Thins points to about so many. Cells have at least this edge (mm), so there may be fewer.
+std::vector<SurfacePoint> thinnedTo(
+  const std::vector<SurfacePoint>& points, std::size_t wanted, double leastMm = 0.0)
+{
+  std::vector<std::size_t> numbers;
+  if (leastMm > 0.0)
+  {
+    numbers = nearestToMiddles(points, leastMm);
+    if (numbers.size() <= wanted)
+    {
+      return picked(points, numbers);
+    }
+  }
+  if (points.size() <= wanted)
+  {
+    return points;
+  }
+  glm::dvec3 low = points.front().position;
+  glm::dvec3 high = low;
+  for (const SurfacePoint& point : points)
+  {
+    low = glm::min(low, point.position);
+    high = glm::max(high, point.position);
+  }
+  double small = leastMm;
+  double large = glm::distance(low, high);
+  const auto target = static_cast<double>(wanted);
+  for (int i = 0; i < MostTries; ++i)
+  {
+    const double middle = 0.5 * (small + large);
+    numbers = nearestToMiddles(points, middle);
+    const auto found = static_cast<double>(numbers.size());
+    if (std::abs(found - target) <= Enough * target)
+    {
+      break;
+    }
+    (found > target ? small : large) = middle;
+  }
+  return picked(points, numbers);
+}
+
+Cell cellOf(const glm::dvec3& position, double cellMm)
+{
+  const glm::dvec3 cell = glm::floor(position / cellMm);
+  return { cell.x, cell.y, cell.z };
+}
+
+// Open points of the cortex, to find the closed ones beside them.
+class OpenCortex
+{
+public:
+  void add(const SurfacePoint& point)
+  {
+    this->Cells[cellOf(point.position, RimMm)].push_back(point.position);
+  }
+
+  // Whether an open point is within RimMm.
+  bool isNear(const glm::dvec3& position) const
+  {
+    constexpr int Side = 3;
+    for (int i = 0; i < Side * Side * Side; ++i)
+    {
+      const glm::dvec3 step(i % Side - 1, i / Side % Side - 1, i / (Side * Side) - 1);
+      const auto found = this->Cells.find(cellOf(position + RimMm * step, RimMm));
+      if (found != this->Cells.end() &&
+        std::any_of(found->second.begin(), found->second.end(),
+          [&](const glm::dvec3& open) { return glm::distance(open, position) < RimMm; }))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  std::map<Cell, std::vector<glm::dvec3>> Cells;
+};
 }
 
 OpeningBall ballAround(const std::vector<glm::dvec3>& positions)
@@ -89,35 +169,29 @@ std::vector<SurfacePoint> thinnedPoints(const std::vector<SurfacePoint>& surface
 std::vector<SurfacePoint> chooseAnchors(const std::vector<SurfacePoint>& surface,
   const std::function<bool(const glm::dvec3&)>& isOpen, std::size_t wanted)
 {
+  OpenCortex open;
   std::vector<SurfacePoint> closed;
-  std::copy_if(surface.begin(), surface.end(), std::back_inserter(closed),
-    [&](const SurfacePoint& point) { return !isOpen(point.position); });
+  for (const SurfacePoint& point : surface)
+  {
+    if (isOpen(point.position))
+    {
+      open.add(point);
+    }
+    else
+    {
+      closed.push_back(point);
+    }
+  }
   if (closed.size() <= wanted)
   {
     return closed;
   }
-  glm::dvec3 low = closed.front().position;
-  glm::dvec3 high = low;
-  for (const SurfacePoint& point : closed)
-  {
-    low = glm::min(low, point.position);
-    high = glm::max(high, point.position);
-  }
-  double small = 0.0;
-  double large = glm::distance(low, high);
-  const auto target = static_cast<double>(wanted);
-  std::vector<std::size_t> numbers;
-  for (int i = 0; i < MostTries; ++i)
-  {
-    const double middle = 0.5 * (small + large);
-    numbers = nearestToMiddles(closed, middle);
-    const auto found = static_cast<double>(numbers.size());
-    if (std::abs(found - target) <= Enough * target)
-    {
-      break;
-    }
-    (found > target ? small : large) = middle;
-  }
-  return picked(closed, numbers);
+  const auto beyond = std::stable_partition(closed.begin(), closed.end(),
+    [&](const SurfacePoint& point) { return open.isNear(point.position); });
+  std::vector<SurfacePoint> result =
+    thinnedTo({ closed.begin(), beyond }, wanted / MostOfRim, RimMm);
+  const std::vector<SurfacePoint> far = thinnedTo({ beyond, closed.end() }, wanted - result.size());
+  result.insert(result.end(), far.begin(), far.end());
+  return result;
 }
 }

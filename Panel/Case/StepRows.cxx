@@ -141,8 +141,8 @@ void StepRows::show(const QJsonArray& told)
     const bool isDone = step["state"].toString() == "done";
     row.button->setText(wordsOf(step["name"].toString()).label);
     row.button->setEnabled(lacks.isEmpty());
-    row.isDoubtful = step["doubtful"].toBool();
-    row.sign->setText(!isDone ? QString() : row.isDoubtful ? "!" : QString(QChar(0x2713)));
+    row.isDoubtful = step["doubtful"].toBool() && lacks.isEmpty();
+    row.sign->setText(row.isDoubtful ? "!" : isDone ? QString(QChar(0x2713)) : QString());
     row.sign->setToolTip(
       row.isDoubtful ? StepRows::tr("Doubtful: read what it found.") : QString());
     row.text->setText(

@@ -7,8 +7,8 @@ import uuid
 
 from .arguments import positive, vector
 from .casesources import (
-    MARK, OPENED, RESULT, SETTING, digest_of, free_name, inputs_of, kept, marks, opened,
-    require_kind, settings_at, sources, stem, values_of)
+    MARK, OPENED, RESULT, SETTING, digest_of, free_name, give_name, inputs_of, kept, marks, opened,
+    require_kind, settings_at, sources, stem, upstream, values_of)
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
 from .grids import shapes_of
@@ -286,7 +286,8 @@ class Case(Steps, Moments, TimedTraces, Resections):
 
     bent = property(lambda self: self.part("bent"))
     comparison = property(lambda self: self.part("comparison"))
-    trace_distance = property(lambda self: self.part("trace_distance"))
+    trace_distance = property(
+        lambda self: None if self.traced is None else self.part("trace_distance"))
     contact_distance = property(lambda self: self.part("contact_distance"))
 
     def _setting(self, name, default=None):
@@ -340,7 +341,7 @@ class Case(Steps, Moments, TimedTraces, Resections):
                 self._keep("opening_ball", None)
         self._wire()
         for source, name in self._unnamed:  # now former sources have given their names back
-            simple.RenameSource(free_name(name), source)
+            give_name(source, name)
         self._unnamed = []
         shared = ("brain", "tumour", *(["traces"] if self.traces_by_time else []))
         for case in self.moments if role in shared else ():
@@ -391,8 +392,7 @@ class Case(Steps, Moments, TimedTraces, Resections):
         former = self.part(role)
         if former is not None and (keep is None or former.SMProxy is not keep.SMProxy):
             former.SMProxy.RemoveAnnotation(self._key(role))
-            if former.SMProxy.HasAnnotation(OPENED) and not marks(former):
-                self._loose.append(former)
+            self._loose += [source for source in upstream(former) if not marks(source)]
 
     def _take(self, role, source, name=None):
         """Gives a role to a source, and a name to one that the case opened."""
@@ -406,10 +406,11 @@ class Case(Steps, Moments, TimedTraces, Resections):
         """Deletes sources of former roles that nothing uses, and then those that these used."""
         from paraview import simple
 
-        while unused := [source for source in self._loose if is_unused(source)]:
-            self._loose = [source for source in self._loose if source not in unused]
-            for source in unused:
-                simple.Delete(source)
+        self._loose = [source for source in self._loose if not marks(source)]
+        while unused := next(filter(is_unused, self._loose), None):
+            self._loose.remove(unused)
+            simple.Delete(unused)
+            del unused  # it uses its input as long as Python holds it
         self._loose = []
 
     # The pipeline -----------------------------------------------------------------------------
@@ -504,7 +505,9 @@ class Case(Steps, Moments, TimedTraces, Resections):
 
     def _distances(self, bent):
         cortex = self.cortex()
-        for part, points, name in (("trace_distance", self.traced, "trace distance"),
+        # One that is there stays without points, with its displays: a wrong time is soon corrected.
+        traced = self.traces_now() if self.part("trace_distance") else self.traced
+        for part, points, name in (("trace_distance", traced, "trace distance"),
                                    ("contact_distance", self.electrodes, "contact distance")):
             measure = self._made(part, "TraceDistance", name, Input=points if cortex else None,
                                  Deformation=bent)

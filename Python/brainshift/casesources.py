@@ -2,18 +2,27 @@
 """Sources of the pipeline as a case sees them: their marks, names, kinds and inputs."""
 
 import functools
+import glob
 import hashlib
 import itertools
 import json
 import os
+import time
 
 from .roles import ending, open_file
 
 #: Annotations of proxies, which state files keep: `MARK` + role + "." + name of the case; at the
 #: Free-Form Deformation `SETTING` + name, a setting as JSON, and `RESULT` + name, a result and the
-#: state of the case that it is of; `OPENED` at sources that a case opened itself.
+#: state of the case that it is of; `OPENED` at sources that a case opened itself, and `NAME` the
+#: name that it gave them.
 MARK, SETTING, OPENED = "BrainShift.Case.", "BrainShift.CaseSetting.", "BrainShift.CaseOpened"
-RESULT = "BrainShift.CaseResult."
+RESULT, NAME = "BrainShift.CaseResult.", "BrainShift.CaseName"
+
+#: Properties of readers that name files or folders.
+FILE_PROPERTIES = ("FileName", "FileNames")
+
+#: By path: until when it is not looked at again, and what was found. See `_written`.
+_seen = {}
 
 #: Roles that points have. All others are volumes.
 POINT_ROLES = ("traces", "landmarks", "measured", "electrodes")
@@ -39,13 +48,26 @@ def stem(source):
     """The name of a source's file without its ending, or the name of the source."""
     from paraview import servermanager
 
-    for name in ("FileName", "FileNames"):
+    for name in FILE_PROPERTIES:
         value = getattr(source, name, None)
         if value:
             path = value if isinstance(value, str) else value[0]
             base = os.path.basename(os.path.normpath(path))
             return base[:len(base) - len(ending(path))] if ending(path) else base
     return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or "volume"
+
+
+def give_name(source, name=None):
+    """Gives a source a name, if no other has it, and keeps it at the source. Without a name: the
+    one that it was given before, or that of its file."""
+    from paraview import simple
+
+    proxy = source.SMProxy
+    kept_name = proxy.GetAnnotation(NAME) if proxy.HasAnnotation(NAME) else stem(source)
+    free = free_name(name or kept_name)
+    simple.RenameSource(free, source)
+    if name:
+        proxy.SetAnnotation(NAME, free)
 
 
 def opened(path, role, **properties):
@@ -87,6 +109,15 @@ def settings_at(bent):
             if key.startswith(SETTING)}
 
 
+def upstream(source):
+    """A source and those that it is made of, as far as a case opened them."""
+    found = []
+    while source is not None and source.SMProxy.HasAnnotation(OPENED):
+        found.append(source)
+        source = getattr(source, "Input", None)
+    return found
+
+
 def inputs_of(source):
     """All proxies that a source is made of, by their numbers, and the source itself."""
     found, waiting = {}, [source.SMProxy]
@@ -107,8 +138,10 @@ def inputs_of(source):
 
 
 def values_of(source):
-    """What a source was told, to see whether it changed: its identity and its properties."""
+    """What a source was told, to see whether it changed: its identity, its properties, and when its
+    files were written."""
     found = [source.SMProxy.GetGlobalIDAsString()]
+    is_dicom = source.SMProxy.GetXMLName().startswith("DICOM")  # which reads a file's whole folder
     for name in source.ListProperties():
         own = source.SMProxy.GetProperty(name)
         if own is None or own.GetInformationOnly() or name == "Evidence":  # which moves nothing
@@ -118,19 +151,68 @@ def values_of(source):
             value = [own.GetProxy(i) and own.GetProxy(i).GetGlobalIDAsString()
                      for i in range(own.GetNumberOfProxies())]
         found.append((name, str(value)))
+        if name.endswith(FILE_PROPERTIES):
+            found.append((f"{name} written", [
+                _written(os.path.dirname(path) if is_dicom and os.path.isfile(path) else path)
+                for path in _list_of(value)]))
     return found
+
+
+def _list_of(value):
+    return [value] if isinstance(value, str) else list(value or ())
+
+
+def paths_of(source):
+    """The paths of the files of a source, or of the source that its points were chosen from."""
+    for each in (source, *upstream(source)):
+        value = next((getattr(each, name) for name in FILE_PROPERTIES
+                      if getattr(each, name, None)), None)
+        if value:
+            return _list_of(value)
+    return []
 
 
 def digest_of(state):
     """A text for a state of a case, the same once a state file brought it back, if no file was
     written since: `values_of` sources first, which have other numbers then, and anything else."""
     sources_of, *others = state
-    files = [value for values in sources_of for name, value in values[1:] if name == "FileName"]
-    written = [os.stat(file).st_mtime_ns for file in files if os.path.exists(file)]
-    text = repr([values[1:] for values in sources_of] + others + written)
+    text = repr([values[1:] for values in sources_of] + others)
     for i, values in enumerate(sources_of):
         text = text.replace(f"'{values[0]}'", f"'#{i}'")
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _written(path):
+    """When the files at a path were written, and their sizes: pairs by name; of a folder of all
+    files below it. Empty if there is none, as on a server.
+
+    The answer is kept for 20 times as long as it took: a folder may have thousands of files.
+    """
+    asked = time.monotonic()
+    until, found = _seen.get(path, (asked, None))
+    if asked >= until:
+        found = sorted(filter(None, map(_stat_of, _files_at(path))))
+        now = time.monotonic()
+        _seen[path] = now + 20.0 * (now - asked), found
+    return found
+
+
+def _files_at(path):
+    """The files that a path stands for: all in a folder; a header and the data beside it."""
+    if os.path.isdir(path):
+        return [os.path.join(folder, name) for folder, _, names in os.walk(path) for name in names]
+    if ending(path) in (".mhd", ".nhdr"):
+        beside = glob.escape(path[:len(path) - len(ending(path))])
+        return glob.glob(f"{beside}.*")
+    return [path]
+
+
+def _stat_of(file):
+    try:
+        known = os.stat(file)
+    except OSError:  # deleted meanwhile
+        return None
+    return file, known.st_mtime_ns, known.st_size
 
 
 def kept(function):

@@ -10,7 +10,7 @@ import os
 import traceback
 
 from .cases import Case
-from .casesources import OPENED, POINT_ROLES, free_name, sources, stem
+from .casesources import OPENED, POINT_ROLES, give_name, sources
 from .points import read_from
 from .roles import ROLES, ending, holds_both, paired, proposed
 from .scenes import turn_to_opening
@@ -64,24 +64,36 @@ def _case():
         _in_hand.update(case=None, connection=connection, known={})
     _name_again()
     case, known = _in_hand["case"], _cases()
-    if known and case not in (*known, _in_hand["new"]):  # as after an undo
-        case = _in_hand["former"] if _in_hand["former"] in known else known[0]
+    if known and (case is None or case not in (*known, _in_hand["new"])):  # as after an undo
+        case = _in_hand["former"] if _in_hand["former"] in known else _seen(known)
     case = case or Case()
     _in_hand["known"][case.name] = _in_hand["case"] = case
     return case
 
 
+def _seen(known):
+    """The case that the active view shows, as after a state was loaded; else the first."""
+    from paraview import simple
+
+    view = simple.GetActiveView()
+    for case in known if view else ():
+        if any(_is_shown(case.part(part), view) for part in ("bent", "resected", "comparison")):
+            return case
+        if _is_shown(case.part("moments"), view):
+            begun = [each for each in case.moments if each.minutes <= view.ViewTime]
+            return known[known.index((begun or case.moments[:1])[-1])]
+    return known[0]
+
+
 def _name_again():
     """Gives sources that a case opened their names back: ParaView's dialog that loads a state calls
     them by their files, colin_T1w colin_T..w.nii.gz."""
-    from paraview import simple
-
     for source in sources():
-        path = getattr(source, "FileName", None) or ""
+        path = getattr(source, "FileName", None) or getattr(source, "FileNames", None) or ""
         path = path if isinstance(path, str) else path[0]
         if (source.SMProxy.HasAnnotation(OPENED) and ending(path)
                 and _name(source).lower().endswith(ending(path))):
-            simple.RenameSource(free_name(stem(source)), source)
+            give_name(source)
 
 
 def _source(number):
@@ -217,11 +229,12 @@ def _set(case, name, value):
     former = [points for points in (case.traces, *(each.part("timed") for each in case.moments))
               if view and _is_shown(points, view)]
     setattr(case, name, value)
-    if former and case.traced not in former:  # points of another moment would be seen
+    now = case.traces_now()
+    if former and now not in former:  # points of another moment would be seen
         for points in former:
             simple.Hide(points, view)
-        if case.traced is not None:
-            _show_points(case.traced, view, _ORANGE)
+        if now is not None:
+            _show_points(now, view, _ORANGE)
 
 
 def _set_sphere(case, numbers=()):

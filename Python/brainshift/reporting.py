@@ -8,12 +8,12 @@ import os
 from html import escape
 
 from . import scenes
+from .casesources import paths_of
 from .drawing import png
 from .figures import _strength_kept, _versions
 from .files import figures_of
 from .fitting import Fit
 from .maps import rest_from_deformed
-from .registering import refined_by
 from .roles import ROLES, ending
 
 NOTICE = "Research software, not for clinical use."
@@ -193,24 +193,12 @@ def _resection_rows(found):
             ("Left of before", 100.0 * found.left / found.before, "%", "")]
 
 
-def _warnings(case, fit):
-    found = [fit.warning] if fit is not None and fit.warning else []
-    bent, grids = case.bent, case.part("at_rest")
-    if grids is not None and grids.GetPropertyValue("Warning"):
-        found.append(grids.GetPropertyValue("Warning"))
-    if case.comparison is not None:
-        warning = figures_of(case.comparison).GetPropertyValue("Warning")
-        found += [warning] if warning else []
-    if refined_by(bent.Lattice).get("warning"):
-        found.append(refined_by(bent.Lattice)["warning"])
-    if fit is not None and fit.share < 1.0:
-        found.append(f"The fold guard applied {100 * fit.share:.0f} % of the fit.")
-    if float(bent.MinimumJacobian) < 0.1:
-        found.append("Tissue is compressed to a tenth or folds "
-                     f"(Jacobian determinant {float(bent.MinimumJacobian):.2f}).")
+def _warnings(case):
+    found = [sentence if sentence.endswith(".") else f"{sentence}."
+             for _, sentence in case.doubts()]
     if case.resection is not None and case.resection.reason:
         found.append(f"Resection: {case.resection.reason}.")
-    return found
+    return list(dict.fromkeys(found))  # a moved cavity concerns two steps
 
 
 def _settings(case):
@@ -241,14 +229,6 @@ def _settings(case):
 
 
 # Files --------------------------------------------------------------------------------------------
-
-
-def _paths(source):
-    for name in ("FileName", "FileNames"):
-        value = getattr(source, name, None)
-        if value:
-            return [value] if isinstance(value, str) else list(value)
-    return []
 
 
 def sha256(path):
@@ -282,8 +262,8 @@ def _files(case, names):
     rows = []
     for role in (*ROLES, "measured"):
         source = case.part(role)
-        for path in _paths(source) if source is not None else []:
-            if role == "measured" and path in _paths(case.part("landmarks")):
+        for path in paths_of(source) if source is not None else []:
+            if role == "measured" and path in paths_of(case.part("landmarks")):
                 continue  # one file with both
             known = os.path.exists(path)
             kind = "DICOM series" if known and os.path.isdir(path) else ending(path) or "file"
@@ -401,7 +381,7 @@ def _sections(case, names):
     distances = _distances(case)
     fit_rows, fit = _fit_rows(case)
     yield "", _tiles(case, fit, distances) + "".join(
-        f'<p class="warning">{escape(text)}</p>' for text in _warnings(case, fit))
+        f'<p class="warning">{escape(text)}</p>' for text in _warnings(case))
     yield "Steps", _table(("Step", "State", "Found or missing"), [
         (step.name, step.state, f"{len(case.exported)} files"
          if step.name == "Export" and case.exported and not names else step.found or step.lacks)

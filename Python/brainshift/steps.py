@@ -16,13 +16,23 @@ Step.__doc__ = """A step of a case.
 - `name`: Look, Measure, Fit, By hand, Refine, Judge or Export
 - `state`: `"done"`, `"ready"`, or `"lacks"` if something is missing
 - `lacks`: what is missing, or an empty text
-- `found`: what it found, in a line with units, or an empty text
+- `found`: what it found, in a line with units, and why that may be wrong; or an empty text
 """
 
 _NUMBERS_PER_STROKE = 14
 
+#: The least Jacobian determinant that the fold guard allows.
+SMALLEST_DETERMINANT = 0.1
+
 _TRUST = {"good": "Its checks found no fault.", "doubtful": "The result is doubtful.",
           "failed": "The result failed its checks.", "unchecked": "The result was not checked."}
+
+
+def _joined(line, sentences):
+    """A line with those sentences that it does not have yet."""
+    new = [sentence for sentence in sentences if sentence.rstrip(".") not in line]
+    parts = [part for part in (line, *new) if part]
+    return ". ".join([*(part.rstrip(".") for part in parts[:-1]), *parts[-1:]])
 
 
 def _cost(value):
@@ -35,11 +45,12 @@ class Steps:
     @property
     def steps(self):
         """The steps of the case, a list of `Step`: what each lacks, and what it found."""
-        found = []
+        found, doubts = [], self.doubts()
         for name in STEPS:
             lacks, line = getattr(self, "_step_" + name.lower().replace(" ", "_"))()
             state = "lacks" if lacks else "done" if line else "ready"
-            found.append(Step(name, state, lacks, line))
+            why = [sentence for step, sentence in doubts if step == name and not lacks]
+            found.append(Step(name, state, lacks, _joined(line, why)))
         return found
 
     def lacks_bent(self):
@@ -77,14 +88,7 @@ class Steps:
             lines.append(f"{len(errors.errors)} landmarks, {errors.mean:.2f} mm in the mean, "
                          f"{errors.largest:.2f} mm at most")
         if lines:
-            if self.lacks_traced():
-                lines.append(f"no {self.lacks_traced()}")
-            strays = self.of_no_moment()
-            if strays:
-                lines.append(f"{strays} traced points belong to no moment: they are of before the "
-                             "first, or have no time stamp")
-            doubt = self._cavity_doubt() if self.trace_distance or self.contact_distance else ""
-            return "", "; ".join(lines) + doubt
+            return "", "; ".join(lines)
         if self.lacks_traced():
             return self.lacks_traced(), ""
         if self.traces is None and self.electrodes is None:
@@ -97,7 +101,7 @@ class Steps:
         if self.cavity is None or moved is None or not any(
                 [*moved.ReferenceTranslation, *moved.ReferenceRotation]):
             return ""
-        return (". The reference was moved, and its cavity with it, but points are left out by the "
+        return ("The reference was moved, and its cavity with it, but points are left out by the "
                 "cavity as its file has it: align first and save the cavity where it belongs, or "
                 "leave the cavity out")
 
@@ -142,10 +146,6 @@ class Steps:
         found = repr(Fit(fit)).removeprefix("Fit: ")
         if not self.fits_landmarks():
             found = found.replace(" landmarks with", " contacts of grids with")
-            grids = self.part("at_rest")
-            doubts = grids.GetPropertyValue("Warning") if grids is not None else ""
-            found += f". {doubts}" if doubts else ""
-            found += self._cavity_doubt()
         return "", reason_of(fit) or found
 
     def _step_by_hand(self):
@@ -170,24 +170,64 @@ class Steps:
         if by:
             found += (f"; {'finished' if by['finished'] else 'stopped'} after {by['steps']} steps, "
                       f"cost {_cost(by['before'])} before, {_cost(by['cost'])} now (0: the volumes "
-                      f"match). {_TRUST[by['trust']]} {by['warning']}").rstrip()
+                      f"match). {_TRUST[by['trust']]}")
         return "", found
 
     def doubtful(self):
         """The names of the steps that may have found something wrong: what they found says why."""
-        names = {"Measure", "Fit"} if self._cavity_doubt() else set()
+        return {step for step, _ in self.doubts()}
+
+    def doubts(self):
+        """Why steps may have found something wrong: a list of pairs, a step's name and a sentence.
+
+        A doubt about the reference belongs to Refine, also before it is done.
+        """
+        if self.lacks_bent():
+            return []
+        found = [*self._doubts_about_points(), *self._doubts_about_fit(),
+                 *self._doubts_about_reference(), *self._doubts_about_tissue()]
+        return [(step, sentence) for step, sentence in found if sentence]
+
+    def _doubts_about_points(self):
+        if self.lacks_traced():
+            yield "Measure", f"No {self.lacks_traced()}"
+        strays = self.of_no_moment()
+        if strays:
+            yield "Measure", (f"{strays} traced points belong to no moment: they are of before the "
+                              "first, or have no time stamp")
+        if self.trace_distance or self.contact_distance:
+            yield "Measure", self._cavity_doubt()
+
+    def _doubts_about_fit(self):
         fit = self.fit_source()
-        if fit is not None and reason_of(fit):
-            names.add("Fit")
-        if self.lacks_traced() or self.of_no_moment():
-            names.add("Measure")
+        if fit is None:
+            return
+        known = Fit(figures_of(fit))
+        yield "Fit", reason_of(fit)
+        if known.warning or known.share < 1.0:
+            yield "Fit", known.warning or f"The fold guard applied {100 * known.share:.3g} % of it"
         grids = self.part("at_rest")
-        if grids is not None and grids.GetPropertyValue("Warning") and not self.fits_landmarks():
-            names.add("Fit")
-        by = refined_by(self.bent.Lattice) if self.bent is not None else {}
-        if by.get("trust") in ("doubtful", "failed") or by.get("warning"):
-            names.add("Refine")
-        return names
+        if not self.fits_landmarks():
+            if grids is not None:
+                yield "Fit", figures_of(grids).GetPropertyValue("Warning")
+            yield "Fit", self._cavity_doubt()
+
+    def _doubts_about_reference(self):
+        if self.comparison is not None:
+            yield "Refine", figures_of(self.comparison).GetPropertyValue("Warning")
+        by = refined_by(self.bent.Lattice)
+        if by.get("warning") or by.get("trust") in ("doubtful", "failed"):
+            yield "Refine", by.get("warning") or _TRUST[by["trust"]]
+
+    def _doubts_about_tissue(self):
+        """A fold belongs to the step that changed the deformation last."""
+        bent = figures_of(self.bent)
+        step = ("By hand" if len(bent.Strokes) else
+                "Refine" if is_kind(bent.Lattice, "RefinedLattice") else
+                "Fit" if self.fit_source() is not None else "Look")
+        if bent.MinimumJacobian < SMALLEST_DETERMINANT:
+            yield step, ("Tissue is compressed to less than a tenth, or folds: the smallest "
+                         f"Jacobian determinant is {bent.MinimumJacobian:.2f}")
 
     def _step_judge(self):
         if not all(self.landmarks or (None,)) or self.lacks_bent():

@@ -11,6 +11,9 @@ UNITS = {"s": 60.0, "ms": 60000.0, "min": 1.0}
 #: The point array of time stamps, as Landmark Reader calls it.
 _STAMPS = "Time"
 
+#: The annotation of sources that chose the points of a moment, and are its own traces now.
+_PARTED = "BrainShift.CaseParted"
+
 
 class TimedTraces:
     """The traces of a `Case`, which derives from this, at its moment."""
@@ -21,6 +24,7 @@ class TimedTraces:
 
         The unit of the stamps, `"s"`, `"ms"` or `"min"`. A point belongs to the last moment that
         began at or before its stamp. Default: an empty text; each moment has traces of its own.
+        Set back to empty, each moment keeps the points that it had as traces of its own.
         """
         return self._setting("traces_by_time", "")
 
@@ -32,8 +36,8 @@ class TimedTraces:
                              "or empty")
         if unit:
             self._share("traces_by_time", unit, self._only_traces())
-        else:
-            self._share("traces_by_time", unit, self.traces)
+        elif self.traces_by_time:
+            self._part_traces()
 
     @property
     def trace_start(self):
@@ -55,6 +59,11 @@ class TimedTraces:
             return self.traces
         timed.UpdatePipeline()
         return timed if timed.GetDataInformation().GetNumberOfPoints() else None
+
+    def traces_now(self):
+        """The source of the traced points of this moment, also if it has no point; else `None`."""
+        timed = self.part("timed")
+        return self.traces if timed is None else timed
 
     def has_stamps(self):
         """Whether the traces have time stamps."""
@@ -102,15 +111,33 @@ class TimedTraces:
     def _only_traces(self):
         """The traces of all moments; None if none has any. Raises `ValueError` if two moments have
         different ones, or they have no time stamps."""
-        given = [case for case in self.moments if case.traces is not None]
-        for case in given:
-            if case.traces != given[0].traces:
+        given = [(case, _whole(case.traces)) for case in self.moments if case.traces is not None]
+        for case, traces in given:
+            if traces != given[0][1]:
                 name = repr(case.moment) if case.moment else "without a name"
                 raise ValueError(f"the moment {name} has traces of its own, {stem(case.traces)}: "
                                  "take them away first, for one source has the traces of all "
                                  "moments by time")
-        self._require_stamps(given[0].traces if given else None)
-        return given[0].traces if given else None
+        traces = given[0][1] if given else None
+        self._require_stamps(traces)
+        return traces
+
+    @kept
+    def _part_traces(self):
+        """Makes the points of each moment traces of its own."""
+        cases = self.moments
+        for case, points in [(case, case.traced) for case in cases]:
+            made = [case.part(part) for part in ("timed", "cloud") if points is not None]
+            for part, source in zip(("timed", "cloud"), made):
+                source.SMProxy.RemoveAnnotation(case._key(part))
+            case._take("traces", points)
+            for source in made:
+                source.SMProxy.SetAnnotation(OPENED, "1")  # it goes when it has no role any more
+                source.SMProxy.SetAnnotation(_PARTED, "1")
+        for case in cases:
+            case._keep("traces_by_time", "")
+        for case in cases:
+            case._wire()
 
     @kept
     def _share(self, name, value, traces):
@@ -151,6 +178,13 @@ class TimedTraces:
             for case in self.moments:
                 if case != self:
                     case._wire()
+
+
+def _whole(traces):
+    """The traces of all moments that those of one were taken from; else the traces themselves."""
+    while traces.SMProxy.HasAnnotation(_PARTED):
+        traces = traces.Input
+    return traces
 
 
 def _stamps_of(source):

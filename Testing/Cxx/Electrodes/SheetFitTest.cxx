@@ -51,6 +51,7 @@ struct Patient
   Sag sag;
   LaidGrid grid;
 
+  Patient() = default;
   Patient(const GridShape& shape, int number)
   {
     const std::vector<glm::dvec3> sides{ { 0.9, -0.3, 0.5 }, { -1.0, 0.1, 0.4 }, { -0.6, 0.6, 0.7 },
@@ -59,6 +60,23 @@ struct Patient
     this->sag = sagAt(sides[number], depths[number], 5.0 + 3.0 * number, 100 + number);
     this->grid = laidGrid(shape, this->sag, 0.7 * number,
       { 3.0 * number - 4.0, 5.0 - 3.0 * number }, NoiseMm, 50 + number);
+  }
+
+  // A patient of no other test: any place, depth and tilt of the sag, any turn of the grid.
+  static Patient any(const GridShape& shape, unsigned seed)
+  {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform;
+    const glm::dvec3 side(normal(random), normal(random), std::abs(normal(random)));
+    const double depthMm = 5.0 + 10.0 * uniform(random);
+    const double tiltDegrees = 20.0 * uniform(random);
+    const double turn = 2.0 * 3.14159265358979 * uniform(random);
+    const glm::dvec2 aside(12.0 * uniform(random) - 6.0, 12.0 * uniform(random) - 6.0);
+    Patient patient;
+    patient.sag = sagAt(side, depthMm, tiltDegrees, seed + 1);
+    patient.grid = laidGrid(shape, patient.sag, turn, aside, NoiseMm, seed + 2);
+    return patient;
   }
 
   OpeningBall opening(const Sheet& sheet) const
@@ -219,7 +237,7 @@ TEST_P(SheetFitOf, PredictsContactsThatAreLeftOut)
   EXPECT_LT(figures.rest.mean(), figures.restByNearest.mean());
   EXPECT_LT(figures.pitch.largest, 0.02);
   EXPECT_LT(figures.still.mean(), 0.1);
-  EXPECT_LT(figures.beyond.largest, 0.55); // 0.51 where a sheet of 8 x 8 was laid before the sag
+  EXPECT_LT(figures.beyond.largest, 0.5);
 }
 
 TEST_P(SheetFitOf, PredictsRowsThatAreLeftOut)
@@ -243,11 +261,33 @@ TEST_P(SheetFitOf, PredictsRowsThatAreLeftOut)
   EXPECT_LT(figures.leftBent.mean(), 0.9);
   EXPECT_LT(figures.leftBent.mean(), figures.leftFilled.mean());
   EXPECT_LT(figures.pitch.largest, 0.02);
+  EXPECT_LT(figures.beyond.largest, 0.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, SheetFitOf,
   ::testing::Values(GridShape{ 8, 8, 10.0 }, GridShape{ 4, 8, 10.0 }, GridShape{ 6, 6, 5.0 },
     GridShape{ 8, 8, 10.0, true }, GridShape{ 4, 8, 10.0, true }));
+
+TEST(SheetFit, LeavesTheCortexBeyondTheOpening)
+{
+  for (const GridShape& shape : { GridShape{ 5, 8, 10.0 }, GridShape{ 6, 8, 10.0, true },
+         GridShape{ 8, 8, 5.0 }, GridShape{ 8, 8, 10.0 } })
+  {
+    Figures figures;
+    for (unsigned number = 0; number < 3; ++number)
+    {
+      const Patient patient = Patient::any(shape, 500 + 10 * number);
+      std::set<int> left;
+      for (int column = 0; column < shape.columns; ++column)
+      {
+        left.insert(column);
+      }
+      judge(patient, left, figures);
+    }
+    print(shape, "any row", figures);
+    EXPECT_LT(figures.beyond.largest, 0.4);
+  }
+}
 
 TEST(SheetFit, LeavesAGridWhereNothingMoved)
 {

@@ -342,6 +342,31 @@ TEST(Anchors, AreSpreadBeyondTheOpening)
   EXPECT_EQ(chooseAnchors(ballPoints(20), [](const glm::dvec3&) { return false; }).size(), 20u);
 }
 
+// Where they were as far apart as elsewhere, cortex between them and the opening moved by 0.5 mm.
+TEST(Anchors, LeaveNoGapBesideTheOpening)
+{
+  const std::vector<SurfacePoint> places = ballPoints(5000);
+  const std::vector<SurfacePoint> anchors = chooseAnchors(places, isNearOpening);
+  double largest = 0.0;
+  for (const SurfacePoint& place : places)
+  {
+    const auto isOpenBeside = [&](const SurfacePoint& other) {
+      return isNearOpening(other.position) && glm::distance(other.position, place.position) < 4.0;
+    };
+    if (!isNearOpening(place.position) && std::any_of(places.begin(), places.end(), isOpenBeside))
+    {
+      double nearest = Radius;
+      for (const SurfacePoint& one : anchors)
+      {
+        nearest = std::min(nearest, glm::distance(one.position, place.position));
+      }
+      largest = std::max(largest, nearest);
+    }
+  }
+  EXPECT_GT(largest, 0.0);
+  EXPECT_LT(largest, 9.0);
+}
+
 TEST(Anchors, BallHoldsPositions)
 {
   const OpeningBall ball = ballAround({ { 0, 0, 0 }, { 10, 0, 0 } });

@@ -2,17 +2,19 @@
 # Proves that a case makes one pipeline from its roles in any order, that steps say what they lack
 # and what they found, that a folder is sorted with reasons and never silently, and that a state
 # keeps all of it.
+import json
 import os
 import shutil
 
 from unittest import mock
 
 import numpy
-from brainshift_testing import (assert_says, ball, load_plugin, messages, run_tests, scratch,
+from brainshift_testing import (assert_says, ball, data, load_plugin, messages, run_tests, scratch,
                                 volume)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift import casesources, dock  # noqa: E402
 from brainshift.points import read_from  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 from patient_testing import (MIDDLE, RADIUS, TOP, cap, make_patient, sunk,  # noqa: E402
@@ -131,6 +133,36 @@ def test_steps_say_what_they_lack_and_found():
     assert_says(repr(case), "Case with volume, brain", "Fit: done")
 
 
+def test_what_may_be_wrong_is_marked_and_said():
+    clear()
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),
+                           traces=path("pointer.csv"))
+    assert case.doubts() == [] and case.doubtful() == set()
+    case.run("Fit")
+    case.reference = path("sub-1_postop.nii.gz")
+    assert case.doubtful() == set(), case.doubts()
+
+    def said(step, *words):
+        assert step in case.doubtful(), case.doubts()
+        found = next(one for one in case.steps if one.name == step)
+        assert_says(found.found, *words)
+        assert found.found.count(words[0]) == 1, found.found
+        return found.state
+    table(path("far.csv"), "xyz", (sunk(cap(150)) + (0, 0, 25)).tolist())
+    case.traces = path("far.csv")
+    assert said("Fit", "The fold guard applied") == "done" and case.fit_source().Share < 1.0
+    case.traces = path("pointer.csv")
+    assert case.doubtful() == set(), case.doubts()
+    case.bent.GuardFolding = 0
+    case.bent.Strokes = brainshift.soft(TOP, (0, 0, -60), 15)
+    assert said("By hand", "folds", "Jacobian determinant is -") == "done"
+    case.bent.Strokes = []
+    assert case.doubtful() == set(), case.doubts()
+    with mock.patch.object(type(case), "comparison", new_callable=mock.PropertyMock) as compared:
+        compared.return_value.GetPropertyValue.return_value = "The reference has other axes"
+        assert said("Refine", "The reference has other axes") == "ready"
+
+
 def test_other_traces_are_fitted_at_once():
     clear()
     table(path("second.csv"), "xyz", cap(100).tolist())
@@ -176,7 +208,14 @@ def test_electrodes_are_fitted_by_their_sheet():
     print(f"tissue under the contacts {off.mean():.2f} mm off")
     assert off.mean() < 1.5, off
     assert len(used.left_out_of_used) == 19, used.left_out_of_used
-    assert_says(case.steps[2].found, "19 contacts of grids", "G7", "above")
+    found = case.steps[2].found
+    assert_says(found, "19 contacts of grids", "G7", "above")
+    simple.SaveState(scratch("grid.pvsm"))
+    clear()
+    simple.LoadState(scratch("grid.pvsm"))
+    case, = brainshift.Case.all()
+    fit = case.bent.Lattice
+    assert "Fit" in case.doubtful() and case.steps[2].found == found, case.steps[2]
     refused(ValueError, ["electrodes must not be made of"],
             lambda: setattr(case, "electrodes", case.part("at_rest")))
     case.judged = "a line"
@@ -324,6 +363,70 @@ def test_results_are_forgotten_when_the_case_changes():
         filled()
         change()
         assert found() == (False, False, False), number
+
+
+def test_results_are_forgotten_when_a_file_of_the_volume_changes():
+    folder = scratch("rewritten")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    scan = os.path.join(folder, "scan.dcm")
+    shutil.copy(data("pydicom-data", "emri_small_jpeg_ls_lossless.dcm"), scan)
+    parts = [os.path.join(folder, f"part_{number}.vti") for number in range(3)]
+    for part in parts:
+        simple.SaveData(part, proxy=volume(ball(21)))
+    for open_volume, changed in (
+            (lambda: simple.DICOMVolumeReader(FileName=folder), scan),
+            (lambda: simple.DICOMVolumeReader(FileName=scan), parts[0]),  # its folder is read
+            (lambda: simple.XMLImageDataReader(FileName=parts), parts[2])):
+        clear()
+        case = brainshift.Case(volume=open_volume())
+        case.judged = "a line"
+        simple.SaveState(scratch("rewritten.pvsm"))
+        assert case.judged == "a line"
+        os.utime(changed, ns=(1, 1))
+        casesources._seen.clear()  # as a moment later
+        assert case.judged is None, changed
+        clear()
+        simple.LoadState(scratch("rewritten.pvsm"))
+        again, = brainshift.Case.all()
+        assert again.judged is None, changed
+        again.judged = "another"
+        simple.SaveState(scratch("rewritten.pvsm"))
+        clear()
+        simple.LoadState(scratch("rewritten.pvsm"))
+        assert brainshift.Case.all()[0].judged == "another", "nothing was written since"
+
+
+def test_names_come_back_to_their_sources():
+    clear()
+    files = []
+    for folder in ("before", "after"):
+        os.makedirs(scratch(folder), exist_ok=True)
+        files.append(os.path.join(scratch(folder), "T1.nii.gz"))
+        shutil.copy(path("sub-1_T1w.nii.gz"), files[-1])
+    case = brainshift.Case(volume=files[0], reference=files[1], traces=path("pointer.csv"))
+    wanted = ["T1", "T1 2", "traced points"]
+    for names_of_dialog in (("b T1.nii.gz", "a T1.nii.gz"), ("a T1.nii.gz", "b T1.nii.gz")):
+        for role, name in zip(("volume", "reference"), names_of_dialog):  # as ParaView's dialog
+            simple.RenameSource(name, case.part(role))
+        simple.RenameSource("pointer.csv", case.traces)
+        dock.answer(json.dumps({"order": "tell"}))
+        assert [dock._name(case.part(role)) for role in ("volume", "reference", "traces")] == wanted
+
+
+def test_files_that_count_are_those_that_are_read():
+    folder = scratch("written")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(os.path.join(folder, "below"))
+    files = [os.path.join(folder, name) for name in ("a.dcm", "below/b.dcm", "c.nhdr", "c.raw")]
+    for file in files:
+        with open(file, "wb") as kept:
+            kept.write(b"x")
+
+    def count(path):
+        return len(casesources._written(path))
+    assert count(folder) == 4 and count(files[0]) == 1, "of a folder those below it, too"
+    assert count(files[2]) == 2 and count(folder + "/none") == 0, "data beside a header"
 
 
 def test_columns_of_landmarks_are_taken_by_their_names():

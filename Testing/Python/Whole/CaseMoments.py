@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that the moments of a surgery share what is known before it, have measurements and a fit of
 # their own, are time steps that play, and come back with a state.
+import json
 import os
 
 import numpy
@@ -9,6 +10,8 @@ from brainshift_testing import assert_says, field, load_plugin, run_tests, scrat
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import simple  # noqa: E402
+from brainshift import dock  # noqa: E402
+from brainshift.casesources import paths_of  # noqa: E402
 from brainshift.points import read_from  # noqa: E402
 from patient_testing import TOP, cap, make_patient, refused, table  # noqa: E402
 
@@ -209,9 +212,52 @@ def test_traces_of_all_moments_are_told_apart_by_time_stamps():
     again = brainshift.Case.all()[0].moments
     again[0].holds_outside = True  # the pipeline is wired anew before anything is updated
     assert [positions(case.traced) for case in again] == kept
-    again[0].traces_by_time = ""
-    assert again[1].traced == again[0].traces and "timed" not in [
-        part for part in ("timed", "cloud") if again[1].part(part)]
+    whole = again[0].traces
+    again[1].traces_by_time = ""
+    again = again[0].moments
+    assert [positions(case.traces) for case in again] == kept, "each keeps its points"
+    assert not any(case.part(part) for case in again for part in ("timed", "cloud"))
+    assert [case.traces_by_time for case in again] == ["", ""]
+    again[1].traces_by_time = "ms"
+    assert [case.traces for case in again] == [whole, whole], "and has them of one source again"
+    assert [positions(case.traced) for case in again] == kept
+
+
+def test_points_that_a_moment_kept_go_with_their_role():
+    first, second = begun()
+    first.traces = stamped("both.csv", numpy.linspace(0.0, 180.0, 40) * 60000.0, cap(40))
+    first.traces_by_time = "ms"
+    second.run("Fit")
+    shown = bend(second.bent)
+    first.traces_by_time = ""
+    assert numpy.array_equal(bend(second.bent), shown) and second.fit_source().Traces == (
+        second.traces), "the fit is as it was"
+    assert [os.path.basename(path) for path in paths_of(second.traces)] == ["both.csv"]
+    before = names()
+    second.traces = path("pointer.csv")
+    assert len(names()) == len(before) - 1, (before, names(), "threshold and cloud went")
+    first.traces = None
+    assert len(names()) == len(before) - 5, (names(), "with the file, and the trace distance")
+
+
+def test_a_wrong_start_leaves_the_displays():
+    first, second = begun()
+    first.traces = stamped("start.csv", numpy.linspace(0.0, 180.0, 40) * 60000.0, cap(40))
+    first.traces_by_time = "ms"
+    view = simple.CreateView("RenderView")
+    measure = first.part("trace_distance")
+    assert measure is not None and first.trace_distance == measure
+    display = simple.Show(measure, view)
+    first.trace_start = 1e12
+    assert first.trace_distance is None and first.traced is None
+    assert_says(first.steps[1].lacks + first.steps[1].found, "traced points of this moment")
+    assert first.part("trace_distance") == measure and display.Visibility == 1
+    assert first.fit_source().Traces is None
+    first.trace_start = 0.0
+    assert first.trace_distance == measure and first.fit_source().Traces == first.traced
+    assert display in list(view.Representations) and display.Visibility == 1
+    first.traces = None
+    assert first.part("trace_distance") is None, "without traces it goes"
 
 
 def test_traces_without_time_stamps_are_refused_as_those_of_all_moments():
@@ -228,6 +274,20 @@ def test_traces_without_time_stamps_are_refused_as_those_of_all_moments():
     assert second.traces is not None and second.traces == first.traces
     timed = first.part("timed")
     refused(["traces must not be made of"], lambda: setattr(second, "traces", timed))
+
+
+def test_the_dock_takes_up_the_moment_that_is_seen():
+    first, second = begun()
+    view = simple.GetActiveViewOrCreate("RenderView")
+    for show, at, wanted in ((second.show_moments, 95.0, second), (first.show_moments, 0.0, first),
+                             (second.show_moments, 40.0, first), (second.show, 0.0, second)):
+        show(view)
+        view.ViewTime = at
+        if show == second.show:
+            simple.Hide(first.part("moments"), view)
+        dock._in_hand.update(case=None, former=None)
+        told = json.loads(dock.answer(json.dumps({"order": "tell"})))
+        assert told["told"]["case"] == wanted.name, (at, view.ViewTime, told["problem"])
 
 
 def test_points_in_one_cell_are_told_apart_as_well():
