@@ -35,6 +35,25 @@ namespace brainshift
 /// Gives the fallback what a mapper draws, and how.
 void drawInSoftware(vtkVolumeMapper* mapper, vtkSmartVolumeMapper* fallback);
 
+namespace
+{
+// Of the whole volume, also if this process has a part of it.
+glm::dvec2 rangeOf(const std::optional<DrawnPart>& part, vtkDataArray* scalars, int component)
+{
+  glm::dvec2 range;
+  scalars->GetFiniteRange(&range[0], component);
+  const char* name = scalars->GetName();
+  if (part && name)
+  {
+    const auto known = part->ranges.find(name);
+    const bool isKnown =
+      known != part->ranges.end() && component < static_cast<int>(known->second.size());
+    range = isKnown ? glm::dvec2(known->second[component][0], known->second[component][1]) : range;
+  }
+  return range;
+}
+}
+
 void drawInSoftware(vtkVolumeMapper* mapper, vtkSmartVolumeMapper* fallback)
 {
   // What stopped our mapper would stop VTK's GPU mapper, too, in some cases by an abort.
@@ -146,13 +165,19 @@ void vtkDeformedVolumeMapper::SetDrawnPart(const DrawnPart* part)
 {
   std::optional<DrawnPart>& known = this->Internal->Part;
   const bool isSame = part ? known && known->bounds == part->bounds && known->cut == part->cut &&
-      known->whole == part->whole
+      known->whole == part->whole && known->tissue == part->tissue && known->ranges == part->ranges
                            : !known;
   if (!isSame)
   {
     known = part ? std::optional(*part) : std::nullopt;
     this->Modified();
   }
+}
+
+const double* vtkDeformedVolumeMapper::GetTissueOfAllRanks() const
+{
+  const std::optional<DrawnPart>& part = this->Internal->Part;
+  return part ? part->tissue.data() : nullptr;
 }
 
 void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
@@ -285,8 +310,8 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   tissue.stepMm = this->StepOn(values.grid);
   tissue.blend = blendOf(this, property);
   tissue.opacity = opacityOf(this, property, values.scalars);
-  values.scalars->GetFiniteRange(
-    &tissue.range[0], drawnComponents(property, values.scalars).scalar);
+  tissue.range =
+    rangeOf(this->Internal->Part, values.scalars, drawnComponents(property, values.scalars).scalar);
   tissue.gradients = static_cast<GradientSource>(this->NormalTexture);
   tissue.labels = isLabelMap(image);
   tissue.nearest = tissue.labels || property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION;

@@ -236,6 +236,8 @@ public:
   void WidenByTissue(vtkImageData* image, double bounds[6]);
   const brainshift::Lattice* GetLattice(vtkImageData* image);
   void SetDrawnPart(const brainshift::DrawnPart* part);
+  /** Where the tissue of all ranks can be, mm; null: this process draws all of it. */
+  const double* GetTissueOfAllRanks() const;
   ///@}
 
   /**

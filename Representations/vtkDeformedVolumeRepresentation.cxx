@@ -210,14 +210,16 @@ void vtkDeformedVolumeRepresentation::CoverPointSelection(vtkObject* caller, uns
   }
 }
 
-// Ranks blend what they drew from front to back, which is right for these two modes alone. Opacity
-// by gradients depends on the range of all values, of which a rank knows a part.
-bool vtkDeformedVolumeRepresentation::CanDrawParts() const
+// Ranks blend what they drew from front to back, which is right for these two modes alone. With a
+// table of gradients, the pictures of parts were not those of one process.
+std::string vtkDeformedVolumeRepresentation::WhyWhole() const
 {
   const int blend = this->VolumeMapper->GetBlendMode();
-  return !this->VolumeMapper->GetCropping() && !this->UseTransfer2D &&
-    this->GradientFactors->GetSize() == 0 &&
-    (blend == vtkVolumeMapper::COMPOSITE_BLEND || blend == vtkVolumeMapper::ISOSURFACE_BLEND);
+  const bool blends =
+    blend == vtkVolumeMapper::COMPOSITE_BLEND || blend == vtkVolumeMapper::ISOSURFACE_BLEND;
+  return !blends          ? "its blend mode is neither Composite nor Isosurface"
+    : this->UseTransfer2D ? "it has a 2D transfer function"
+                          : "";
 }
 
 void vtkDeformedVolumeRepresentation::WidenByTissue(vtkImageData* volume, double bounds[6])

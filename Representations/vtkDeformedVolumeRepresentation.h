@@ -107,7 +107,7 @@ protected:
   vtkDeformedVolumeRepresentation();
   ~vtkDeformedVolumeRepresentation() override;
 
-  bool CanDrawParts() const override;
+  std::string WhyWhole() const override;
   void WidenByTissue(vtkImageData* volume, double bounds[6]) override;
   std::array<int, 6> RestExtent(const brainshift::WholeVolume& whole, vtkImageData* volume,
     const std::array<double, 6>& part, double haloMm) override;

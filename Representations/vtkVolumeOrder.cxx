@@ -2,6 +2,7 @@
 #include "vtkVolumeOrder.h"
 
 #include "vtkCamera.h"
+#include "vtkDeformedVolumeMapper.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -12,6 +13,18 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkVolumeOrder);
+
+namespace
+{
+// A volume of which an MPI rank draws a part has its place among others by all of it.
+const double* boundsOf(vtkProp* prop)
+{
+  auto* volume = vtkVolume::SafeDownCast(prop);
+  auto* mapper = volume ? vtkDeformedVolumeMapper::SafeDownCast(volume->GetMapper()) : nullptr;
+  const double* all = mapper ? mapper->GetTissueOfAllRanks() : nullptr;
+  return all ? all : prop->GetBounds();
+}
+}
 
 vtkVolumeOrder::vtkVolumeOrder() = default;
 vtkVolumeOrder::~vtkVolumeOrder() = default;
@@ -26,7 +39,7 @@ double vtkVolumeOrder::Cull(vtkRenderer* renderer, vtkProp** props, int& count, 
   {
     time += initialized ? props[i]->GetRenderTimeMultiplier() : 1.0;
     const bool sorted = this->Enabled && vtkVolume::SafeDownCast(props[i]);
-    const double* box = sorted ? props[i]->GetBounds() : nullptr;
+    const double* box = sorted ? boundsOf(props[i]) : nullptr;
     if (box)
     {
       const double depth = 0.5 *

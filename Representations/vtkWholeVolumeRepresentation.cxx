@@ -5,10 +5,10 @@
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Window/EvidenceLegend.h"
+#include "Representations/Window/RankAgreement.h"
 #include "Representations/Window/SharedVolume.h"
 #include "Representations/Workarounds/ParaViewFaults.h"
 
-#include "vtkCommunicator.h"
 #include "vtkCompositeRepresentation.h"
 #include "vtkCoordinate.h"
 #include "vtkInformation.h"
@@ -18,7 +18,9 @@
 #include "vtkOutlineSource.h"
 #include "vtkPVLODVolume.h"
 #include "vtkPVRenderView.h"
+#include "vtkPVSession.h"
 #include "vtkPVView.h"
+#include "vtkProcessModule.h"
 #include "vtkRenderer.h"
 #include "vtkTextProperty.h"
 #include "vtkTracePointsRepresentation.h"
@@ -39,15 +41,64 @@ constexpr double LegendTop = 0.89;
 
 constexpr brainshift::Extent NoExtent{ 0, -1, 0, -1, 0, -1 };
 
-bool isTrueOnAny(bool here)
+constexpr brainshift::Box NoBox{ 1e300, -1e300, 1e300, -1e300, 1e300, -1e300 };
+constexpr const char* Kept = ". The picture stays as it was, and strokes are kept";
+constexpr const char* WayOut = ". Start more ranks, or lower RankHalo";
+
+// The box of a grid's corners, mm.
+brainshift::Box cornersOf(const brainshift::Grid& grid)
 {
-  const int own = here;
-  int any = 0;
-  vtkMultiProcessController::GetGlobalController()->AllReduce(
-    &own, &any, 1, vtkCommunicator::MAX_OP);
-  return any != 0;
+  brainshift::Box box = NoBox;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 world = grid.worldFromGrid(side * glm::dvec3(grid.dimensions - 1));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      box[2 * axis] = std::min(box[2 * axis], world[axis]);
+      box[2 * axis + 1] = std::max(box[2 * axis + 1], world[axis]);
+    }
+  }
+  return box;
+}
+
+// Calls visit for each representation that a view shows.
+template <typename Visit>
+void forEachShown(vtkPVRenderView* view, const Visit& visit)
+{
+  for (int i = 0; view && i < view->GetNumberOfRepresentations(); ++i)
+  {
+    vtkDataRepresentation* shown = view->GetRepresentation(i);
+    if (auto composite = vtkCompositeRepresentation::SafeDownCast(shown))
+    {
+      shown = composite->GetActiveRepresentation();
+    }
+    auto data = vtkPVDataRepresentation::SafeDownCast(shown);
+    if (data && data->GetVisibility())
+    {
+      visit(data);
+    }
+  }
+}
+
+// Whether several ranks may draw: all but a process that is client and server alone.
+bool mayHaveRanks()
+{
+  vtkProcessModule* process = vtkProcessModule::GetProcessModule();
+  auto session = vtkPVSession::SafeDownCast(process ? process->GetSession() : nullptr);
+  constexpr vtkTypeUInt32 Both = vtkPVSession::CLIENT | vtkPVSession::DATA_SERVER;
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  return !session || (session->GetProcessRoles() & Both) != Both ||
+    (ranks && ranks->GetNumberOfProcesses() > 1);
 }
 }
+
+struct vtkWholeVolumeRepresentation::Taken
+{
+  brainshift::WholeVolume whole;
+  brainshift::DrawnPart part; // bounds and cut: all of its volumes' view
+  vtkSmartPointer<vtkImageData> voxels;
+};
 
 vtkWholeVolumeRepresentation::vtkWholeVolumeRepresentation()
   : Shared(std::make_unique<brainshift::SharedVolume>())
@@ -84,18 +135,18 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
   return brainshift::guarded(this, 0, [&] {
-    // First the data of this process, then that of all. The superclass finds both done and only
-    // hands the data to the view.
     brainshift::FailedUpdate failed(this, request);
     if (request == vtkPVView::REQUEST_UPDATE())
     {
-      this->ChooseWhoDraws(vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW())));
-    }
-    if (request == vtkPVView::REQUEST_UPDATE() &&
-      // NOLINTNEXTLINE(bugprone-parent-virtual-call): without the delivery of the class between
-      this->vtkVolumeRepresentation::ProcessViewRequest(request, input, output))
-    {
-      this->ShareOut();
+      // First the data of this process, then that of all. The superclass finds both done and only
+      // hands the data to the view.
+      auto view = vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW()));
+      const Group group = this->GroupIn(view);
+      if (group.front() == this)
+      {
+        ChooseWhoDraws(view, group);
+        ShareOut(group, input, output);
+      }
     }
     failed.end();
     const int result = this->Superclass::ProcessViewRequest(request, input, output);
@@ -114,6 +165,7 @@ void vtkWholeVolumeRepresentation::SetRankHalo(double halo)
   {
     this->RankHalo = halo;
     this->Wanted = NoExtent;
+    this->PartsRefused = false;
     this->MarkModified();
   }
 }
@@ -137,75 +189,287 @@ void vtkWholeVolumeRepresentation::WidenBounds()
   }
 }
 
-// ParaView knows one box for each rank and view, so the boxes of two volumes would get mixed up.
-// The actor's transform turns boxes.
-bool vtkWholeVolumeRepresentation::IsAloneIn(vtkPVRenderView* view) const
+// The volumes of the view that are drawn bent, in the order in which they are updated.
+vtkWholeVolumeRepresentation::Group vtkWholeVolumeRepresentation::GroupIn(vtkPVRenderView* view)
 {
-  for (int i = 0; view && i < view->GetNumberOfRepresentations(); ++i)
-  {
-    vtkDataRepresentation* other = view->GetRepresentation(i);
-    if (auto composite = vtkCompositeRepresentation::SafeDownCast(other))
+  Group group;
+  forEachShown(view, [&](vtkDataRepresentation* shown) {
+    if (auto volume = vtkWholeVolumeRepresentation::SafeDownCast(shown))
     {
-      other = composite->GetActiveRepresentation();
+      group.push_back(volume);
     }
-    auto volume = vtkVolumeRepresentation::SafeDownCast(other);
-    auto traces = vtkTracePointsRepresentation::SafeDownCast(other); // which tissue hides
-    if ((volume && volume != this && volume->GetVisibility()) ||
-      (traces && traces->GetVisibility()))
+  });
+  return std::find(group.begin(), group.end(), this) == group.end() ? Group{ this } : group;
+}
+
+// Why the volumes of a view cannot be drawn in parts; empty: they can. The actor's transform turns
+// boxes.
+std::string vtkWholeVolumeRepresentation::WhyWholeIn(vtkPVRenderView* view, const Group& group)
+{
+  std::string reason = view ? "" : "this view is no render view";
+  forEachShown(view, [&](vtkDataRepresentation* shown) {
+    if (vtkTracePointsRepresentation::SafeDownCast(shown))
     {
-      return false;
+      reason = "Trace Points are shown beside it, and no rank knows which tissue is before them";
+    }
+    else if (vtkVolumeRepresentation::SafeDownCast(shown) &&
+      !vtkWholeVolumeRepresentation::SafeDownCast(shown))
+    {
+      reason = "a volume that is no Deformed Volume is shown beside it. ParaView cannot tell which "
+               "of the two is before the other: show both as Deformed Volume";
+    }
+  });
+  for (vtkWholeVolumeRepresentation* volume : group)
+  {
+    reason = reason.empty() ? volume->WhyWhole() : reason;
+    if (reason.empty() && !volume->Actor->GetMatrix()->IsIdentity())
+    {
+      reason = "a volume of the view has a transform";
     }
   }
-  return view && this->Actor->GetMatrix()->IsIdentity();
+  return reason;
 }
 
 // A client comes here, too: it and the server agree on what changed, or the view keeps what it has.
-void vtkWholeVolumeRepresentation::ChooseWhoDraws(vtkPVRenderView* view)
+// Ranks that draw several volumes cut all of them by the same boxes, so a change of one concerns
+// the others.
+void vtkWholeVolumeRepresentation::ChooseWhoDraws(vtkPVRenderView* view, const Group& group)
 {
-  const bool mayDrawPart = this->CanDrawParts() && this->IsAloneIn(view);
-  if (mayDrawPart != this->MayDrawPart)
+  const std::string reason = WhyWholeIn(view, group);
+  bool changes = false;
+  for (vtkWholeVolumeRepresentation* volume : group)
   {
-    this->MayDrawPart = mayDrawPart;
-    this->MarkModified();
+    volume->WhyDrawnWhole = reason;
+    if (reason.empty() != volume->MayDrawPart)
+    {
+      volume->MayDrawPart = reason.empty();
+      volume->PartsRefused = false;
+      volume->MarkModified();
+    }
+    changes = changes || volume->GetNeedsUpdate();
+  }
+  for (vtkWholeVolumeRepresentation* volume : group)
+  {
+    if (changes && !volume->GetNeedsUpdate() && mayHaveRanks())
+    {
+      volume->MarkModified();
+    }
+  }
+}
+
+// Brings this process's part of each volume.
+void vtkWholeVolumeRepresentation::Bring(
+  const Group& group, vtkInformation* input, vtkInformation* output)
+{
+  for (vtkWholeVolumeRepresentation* volume : group)
+  {
+    brainshift::FailedUpdate failed(volume, vtkPVView::REQUEST_UPDATE());
+    volume->Problem = brainshift::sentenceThrownBy("its pipeline", [&] {
+      // NOLINTNEXTLINE(bugprone-parent-virtual-call): without the delivery of the class between
+      volume->vtkVolumeRepresentation::ProcessViewRequest(
+        vtkPVView::REQUEST_UPDATE(), input, output);
+    });
+    failed.end();
   }
 }
 
 // Every rank comes here for every update, even if its pipeline has failed: the others wait for it.
-void vtkWholeVolumeRepresentation::ShareOut()
+void vtkWholeVolumeRepresentation::ShareOut(
+  const Group& group, vtkInformation* input, vtkInformation* output)
 {
   vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
   if (!ranks || ranks->GetNumberOfProcesses() == 1)
   {
     return;
   }
-  if (!isTrueOnAny(this->IsNew))
+  Bring(group, input, output);
+  bool isNew = false;
+  std::string problem;
+  for (vtkWholeVolumeRepresentation* volume : group)
+  {
+    const bool changes = brainshift::isTrueOnAny(ranks, volume->IsNew || !volume->Problem.empty());
+    const std::string lacks = changes && !volume->IsNew ? "its pipeline brought no data" : "";
+    const std::string own = volume->Problem.empty() ? lacks : volume->Problem;
+    problem = problem.empty() ? own : problem;
+    isNew = isNew || changes;
+    volume->IsNew = false;
+  }
+  if (!isNew)
   {
     return;
   }
-  const bool drawsPart =
-    !isTrueOnAny(!this->Part || !this->MayDrawPart || this->ComparesInColors());
-  this->IsNew = false;
-  if (!this->DrawsPart) // else the first rank would keep the whole volume
+  problem = brainshift::problemOnAny(ranks, problem);
+  if (problem.empty())
   {
-    this->Wanted = NoExtent;
+    TakeVoxels(group);
   }
-  this->DrawsPart = drawsPart;
+  else
+  {
+    KeepPicture(group, problem + Kept);
+  }
+}
+
+// Parts if all volumes can be drawn so, and all ranks have memory for them.
+void vtkWholeVolumeRepresentation::TakeVoxels(const Group& all)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  Group group;
+  for (vtkWholeVolumeRepresentation* volume : all)
+  {
+    if (brainshift::isTrueOnAny(ranks, volume->Part))
+    {
+      group.push_back(volume);
+    }
+    else
+    {
+      volume->Drawn = nullptr;
+      KeepPicture({ volume }, {});
+    }
+  }
+  std::string reason;
+  std::string problem = brainshift::sentenceThrownBy("its volume", [&] {
+    for (vtkWholeVolumeRepresentation* volume : group)
+    {
+      reason = reason.empty() ? volume->WhyPartIsWhole() : reason;
+    }
+  });
+  problem = brainshift::problemOnAny(ranks, problem);
+  const bool drawsParts = !brainshift::isTrueOnAny(ranks, !reason.empty());
+  if (problem.empty() && !drawsParts && !group.empty())
+  {
+    group.front()->WarnOfFirstRank(reason);
+  }
+  problem = problem.empty() ? TakeExtents(group, drawsParts) : problem;
+  const std::string ofParts = drawsParts ? problem : "";
+  if (!ofParts.empty())
+  {
+    for (vtkWholeVolumeRepresentation* volume : group)
+    {
+      volume->PartsRefused = true;
+    }
+    problem = TakeExtents(group, false);
+  }
+  if (!problem.empty())
+  {
+    KeepPicture(group, problem + Kept + WayOut);
+  }
+  else if (!ofParts.empty())
+  {
+    group.front()->ReportOnce(ofParts + ". The first rank draws the whole volume" + WayOut);
+  }
+}
+
+// Why this rank cannot draw a part; empty: it can.
+std::string vtkWholeVolumeRepresentation::WhyPartIsWhole()
+{
+  return !this->MayDrawPart    ? this->WhyDrawnWhole
+    : !this->Part              ? "a rank has no voxels of it"
+    : this->PartsRefused       ? "a rank had no memory for its part"
+    : this->ComparesInColors() ? "two colours compare it with a reference"
+                               : "";
+}
+
+void vtkWholeVolumeRepresentation::WarnOfFirstRank(const std::string& reason)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  const bool isNew = reason != this->WarnedOf;
+  this->WarnedOf = reason;
+  if (isNew && !reason.empty() && !this->PartsRefused && ranks->GetLocalProcessId() == 0)
+  {
+    brainshift::warn(this,
+      "The first of " + std::to_string(ranks->GetNumberOfProcesses()) +
+        " MPI ranks holds and draws the whole volume: " + reason);
+  }
+}
+
+// Takes the voxels that this rank draws of each volume. Why one of the ranks cannot, the same on
+// all; empty: all could. All volumes are cut by the same boxes, because ParaView orders ranks.
+std::string vtkWholeVolumeRepresentation::TakeExtents(const Group& group, bool drawsParts)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  const bool isFirst = ranks->GetLocalProcessId() == 0;
+  std::string problem;
+  std::vector<Taken> taken(group.size());
+  brainshift::Box bounds = NoBox;
+  for (std::size_t i = 0; i < group.size(); ++i)
+  {
+    taken[i] = group[i]->Measure(drawsParts, problem);
+    bounds = brainshift::around(bounds, taken[i].part.tissue);
+  }
+  const brainshift::Box box =
+    brainshift::rankParts(bounds, ranks->GetNumberOfProcesses())[ranks->GetLocalProcessId()];
+  for (std::size_t i = 0; i < group.size(); ++i)
+  {
+    vtkWholeVolumeRepresentation* volume = group[i];
+    brainshift::DrawnPart& part = taken[i].part;
+    part.bounds = box;
+    part.cut = brainshift::withoutOuterSides(box, bounds);
+    volume->Want(taken[i].whole, drawsParts ? &part : nullptr, problem);
+    taken[i].voxels =
+      volume->Shared->share(ranks, volume->Part, taken[i].whole, volume->Wanted, problem);
+    if (!taken[i].voxels)
+    {
+      std::for_each(group.begin(), group.end(), [](auto* one) { one->Wanted = NoExtent; });
+      return problem;
+    }
+  }
+  for (std::size_t i = 0; i < group.size(); ++i)
+  {
+    group[i]->IsDrawnElsewhere = !drawsParts && !isFirst;
+    taken[i].part.ranges = group[i]->Shared->ranges();
+    group[i]->SetDrawnPart(drawsParts ? &taken[i].part : nullptr);
+    group[i]->Drawn = taken[i].voxels;
+    group[i]->Draw(taken[i].voxels);
+  }
+  return {};
+}
+
+// The whole volume, and where its tissue can be, the same on each rank. What fails becomes the
+// problem.
+vtkWholeVolumeRepresentation::Taken vtkWholeVolumeRepresentation::Measure(
+  bool drawsParts, std::string& problem)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
   brainshift::Extent all{};
   std::copy_n(this->WholeExtent, 6, all.begin());
-  const brainshift::WholeVolume whole = this->Shared->wholeOf(ranks, this->Part, all);
-  const bool isFirst = ranks->GetLocalProcessId() == 0;
-  const brainshift::DrawnPart part = drawsPart ? this->OwnPart(whole) : brainshift::DrawnPart();
-  if (!drawsPart)
+  Taken taken;
+  taken.whole = this->Shared->wholeOf(ranks, this->Part, all);
+  taken.part.whole = taken.whole.extent;
+  brainshift::Box tissue = cornersOf(taken.whole.grid);
+  if (drawsParts && problem.empty())
   {
+    problem = brainshift::sentenceThrownBy(
+      "its part of the deformation", [&] { this->WidenByTissue(this->Part, tissue.data()); });
+  }
+  taken.part.tissue = brainshift::boxOfAll(ranks, tissue);
+  return taken;
+}
+
+// The voxels that this rank wants; part: null if the first rank draws all. A rank that lacks voxels
+// of its part wants them, and those of the halo around it. What fails becomes the problem.
+void vtkWholeVolumeRepresentation::Want(
+  const brainshift::WholeVolume& whole, const brainshift::DrawnPart* part, std::string& problem)
+{
+  const bool drewPart = this->DrawsPart;
+  this->DrawsPart = part;
+  if (!part)
+  {
+    const bool isFirst = vtkMultiProcessController::GetGlobalController()->GetLocalProcessId() == 0;
     this->Wanted = isFirst ? whole.extent : NoExtent;
   }
-  const vtkSmartPointer<vtkImageData> volume =
-    this->Shared->share(ranks, this->Part, whole, this->Wanted);
-  this->IsDrawnElsewhere = !drawsPart && !isFirst;
+  else if (problem.empty())
+  {
+    this->Wanted = drewPart ? this->Wanted : NoExtent; // else the first rank would keep all
+    problem = brainshift::sentenceThrownBy(
+      "its part of the deformation", [&] { this->WantVoxelsOf(whole, part->bounds); });
+  }
+}
+
+void vtkWholeVolumeRepresentation::Draw(vtkImageData* volume)
+{
   this->Cache = volume;
   this->VolumeMapper->SetInputData(volume);
-  this->SetDrawnPart(drawsPart ? &part : nullptr);
-  if (this->IsDrawnElsewhere)
+  if (this->IsDrawnElsewhere || volume->GetNumberOfPoints() == 0)
   {
     vtkMath::UninitializeBounds(this->DataBounds);
     return;
@@ -216,14 +480,34 @@ void vtkWholeVolumeRepresentation::ShareOut()
   this->WidenBounds(); // ParaView orders ranks by these
 }
 
-// This rank's part of the deformed frame. A rank that lacks voxels of it wants them, and those of
-// the halo around it.
-brainshift::DrawnPart vtkWholeVolumeRepresentation::OwnPart(const brainshift::WholeVolume& whole)
+void vtkWholeVolumeRepresentation::KeepPicture(const Group& group, const std::string& sentence)
 {
-  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
-  const brainshift::Box bounds = this->WholeBounds(whole);
-  const brainshift::Box part =
-    brainshift::rankParts(bounds, ranks->GetNumberOfProcesses())[ranks->GetLocalProcessId()];
+  for (vtkWholeVolumeRepresentation* volume : group)
+  {
+    volume->Wanted = NoExtent;
+    volume->IsDrawnElsewhere = volume->IsDrawnElsewhere || !volume->Drawn;
+    volume->Draw(volume->Drawn ? volume->Drawn : vtkSmartPointer<vtkImageData>::New());
+  }
+  if (!sentence.empty())
+  {
+    group.front()->ReportOnce(sentence);
+  }
+}
+
+// The first rank reports for all: users see what it says.
+void vtkWholeVolumeRepresentation::ReportOnce(const std::string& sentence)
+{
+  const bool isNew = sentence != this->Reported;
+  this->Reported = sentence;
+  if (isNew && vtkMultiProcessController::GetGlobalController()->GetLocalProcessId() == 0)
+  {
+    vtkErrorMacro(<< sentence << ".");
+  }
+}
+
+void vtkWholeVolumeRepresentation::WantVoxelsOf(
+  const brainshift::WholeVolume& whole, const brainshift::Box& part)
+{
   const brainshift::Extent needed = this->RestExtent(whole, this->Part, part, 0.0);
   // What a large stroke asked for is given back after it was undone.
   const brainshift::Extent most = this->RestExtent(whole, this->Part, part, 2.0 * this->RankHalo);
@@ -231,36 +515,6 @@ brainshift::DrawnPart vtkWholeVolumeRepresentation::OwnPart(const brainshift::Wh
   {
     this->Wanted = this->RestExtent(whole, this->Part, part, this->RankHalo);
   }
-  return { part, brainshift::withoutOuterSides(part, bounds), whole.extent };
-}
-
-// Where tissue can be, the same on each rank.
-brainshift::Box vtkWholeVolumeRepresentation::WholeBounds(const brainshift::WholeVolume& whole)
-{
-  brainshift::Box own{ 1e300, -1e300, 1e300, -1e300, 1e300, -1e300 };
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const glm::dvec3 world = whole.grid.worldFromGrid(side * glm::dvec3(whole.grid.dimensions - 1));
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      own[2 * axis] = std::min(own[2 * axis], world[axis]);
-      own[2 * axis + 1] = std::max(own[2 * axis + 1], world[axis]);
-    }
-  }
-  this->WidenByTissue(this->Part, own.data());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    own[2 * axis] = -own[2 * axis];
-  }
-  brainshift::Box all = own;
-  vtkMultiProcessController::GetGlobalController()->AllReduce(
-    own.data(), all.data(), 6, vtkCommunicator::MAX_OP);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    all[2 * axis] = -all[2 * axis];
-  }
-  return all;
 }
 
 std::array<int, 6> vtkWholeVolumeRepresentation::RestExtent(const brainshift::WholeVolume& whole,

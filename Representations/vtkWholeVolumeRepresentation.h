@@ -19,6 +19,8 @@
 
 #include <array>  // for extents
 #include <memory> // for what ranks share
+#include <string> // for its sentences
+#include <vector> // for the volumes of a view
 
 class vtkImageData;
 class vtkPVRenderView;
@@ -83,8 +85,8 @@ private:
   /** Whether colours distinguish a volume and a reference, so that stripes show the uncertainty. */
   virtual bool ComparesInColors() const = 0;
 
-  /** Whether parts of the volume can be drawn by themselves. */
-  virtual bool CanDrawParts() const { return false; }
+  /** Why parts of the volume cannot be drawn by themselves; empty: they can. */
+  virtual std::string WhyWhole() const { return "it is shown as slices"; }
   /** Widens bounds (mm; x, y, z, least and greatest each) by where the volume's tissue can go. */
   virtual void WidenByTissue(vtkImageData*, double[6]) {}
   /** The voxels whose tissue can come into a part of the deformed frame. */
@@ -93,19 +95,39 @@ private:
   /** Draws only a part of the deformed frame. Null: all of it. */
   virtual void SetDrawnPart(const brainshift::DrawnPart*) {}
 
-  void ChooseWhoDraws(vtkPVRenderView* view);
-  void ShareOut();
-  brainshift::DrawnPart OwnPart(const brainshift::WholeVolume& whole);
-  std::array<double, 6> WholeBounds(const brainshift::WholeVolume& whole);
+  using Group = std::vector<vtkWholeVolumeRepresentation*>; // what a view shows, one or more
+  struct Taken;
+
+  Group GroupIn(vtkPVRenderView* view);
+  static std::string WhyWholeIn(vtkPVRenderView* view, const Group& group);
+  static void ChooseWhoDraws(vtkPVRenderView* view, const Group& group);
+  static void ShareOut(const Group& group, vtkInformation* input, vtkInformation* output);
+  static void Bring(const Group& group, vtkInformation* input, vtkInformation* output);
+  static void TakeVoxels(const Group& all);
+  static std::string TakeExtents(const Group& group, bool drawsParts);
+  static void KeepPicture(const Group& group, const std::string& sentence);
+  std::string WhyPartIsWhole();
+  Taken Measure(bool drawsParts, std::string& problem);
+  void Want(
+    const brainshift::WholeVolume& whole, const brainshift::DrawnPart* part, std::string& problem);
+  void WantVoxelsOf(const brainshift::WholeVolume& whole, const std::array<double, 6>& part);
+  void Draw(vtkImageData* volume);
+  void WarnOfFirstRank(const std::string& reason);
+  void ReportOnce(const std::string& sentence);
   void WidenBounds();
-  bool IsAloneIn(vtkPVRenderView* view) const;
 
   vtkNew<brainshift::WindowText> Legend;
   vtkSmartPointer<brainshift::EvidenceLegend> Evidence;
   bool ShowEvidence = false;
   std::unique_ptr<brainshift::SharedVolume> Shared;
-  vtkSmartPointer<vtkImageData> Part; // of this process
-  bool IsNew = false;                 // the part, since voxels were shared out
+  vtkSmartPointer<vtkImageData> Part;  // of this process
+  vtkSmartPointer<vtkImageData> Drawn; // on several ranks: the voxels of the last picture
+  std::string Problem;                 // why this rank's part did not come
+  std::string Reported;                // why a rank could not take part
+  std::string WhyDrawnWhole;           // if the settings and the view say so
+  std::string WarnedOf;                // why the first rank draws all
+  bool PartsRefused = false;           // so the first rank draws all
+  bool IsNew = false;                  // the part, since voxels were shared out
   bool IsDrawnElsewhere = false;
   bool MayDrawPart = false;  // as far as settings and the view say
   bool DrawsPart = false;    // of several ranks

@@ -155,15 +155,21 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
   {
     return false;
   }
-  scene.cuts = cutsOf(request.mapper, tissue.values, scene.frame, scene.field);
-  scene.cuts.partPlanes = partPlanesOf(request.part, scene.frame.worldFromTexture);
-  if (!request.part.empty() &&
-    !deformation.deformed) // samples count from the same box on each rank
+  SceneField space = scene.field;
+  DrawnValues cropped = tissue.values;
+  if (!request.part.empty()) // samples and cropping count from the same box on each rank
   {
     const ValueLayout& layout = tissue.values.layout;
-    scene.cuts.spaceLow = request.wholeLow * layout.textureFromGrid + layout.textureOfGridZero;
-    scene.cuts.spaceHigh = request.wholeHigh * layout.textureFromGrid + layout.textureOfGridZero;
+    Grid& grid = cropped.grid;
+    grid.origin = grid.worldFromGrid(request.wholeLow) - request.wholeLow * grid.spacing;
+    const auto textureFromVoxel = [&](const glm::dvec3& voxel) {
+      return voxel * layout.textureFromGrid + layout.textureOfGridZero;
+    };
+    space.spaceLow = deformation.deformed ? space.spaceLow : textureFromVoxel(request.wholeLow);
+    space.spaceHigh = deformation.deformed ? space.spaceHigh : textureFromVoxel(request.wholeHigh);
   }
+  scene.cuts = cutsOf(request.mapper, cropped, scene.frame, space);
+  scene.cuts.partPlanes = partPlanesOf(request.part, scene.frame.worldFromTexture);
   scene.blending = blendingFor(request, tissue, this->Tissue.Textures, scene.frame);
   return true;
 }

@@ -133,6 +133,17 @@ Box withoutOuterSides(const Box& part, const Box& whole)
   return open;
 }
 
+Box around(const Box& a, const Box& b)
+{
+  Box both = a;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    both[2 * axis] = std::min(a[2 * axis], b[2 * axis]);
+    both[2 * axis + 1] = std::max(a[2 * axis + 1], b[2 * axis + 1]);
+  }
+  return both;
+}
+
 Extent restExtent(const WholeVolume& volume, const Lattice* lattice, const Box& part, double haloMm)
 {
   Range rest = inGrid(volume.grid, part);

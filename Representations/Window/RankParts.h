@@ -11,6 +11,8 @@
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 #include <array>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace brainshift
@@ -30,12 +32,17 @@ struct WholeVolume
   Extent extent{ 0, -1, 0, -1, 0, -1 };
 };
 
+/// Least and greatest value of each component of the whole volume's arrays, by the array's name.
+using WholeRanges = std::map<std::string, std::vector<std::array<double, 2>>>;
+
 /// What one rank draws of the deformed frame.
 struct DrawnPart
 {
   Box bounds{};   ///< mm
   Box cut{};      ///< mm: between these sides, see withoutOuterSides.
   Extent whole{}; ///< of the volume of which the rank has a part
+  Box tissue{};   ///< mm: where the tissue of all ranks can be
+  WholeRanges ranges;
 };
 
 /**
@@ -47,6 +54,9 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> rankParts(const Box& whole,
 /** A part without those of its sides that are sides of the whole: they are far outside. Rays go to
  * their ends there. */
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT Box withoutOuterSides(const Box& part, const Box& whole);
+
+/** The smallest box that holds two. */
+Box around(const Box& a, const Box& b);
 
 /**
  * Where the tissue rests that can come into a part of the deformed frame: an extent within that of

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Window/SharedVolume.h"
 
+#include "Common/Guard.h"
+#include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Representations/Window/RankAgreement.h"
 
 #include "vtkCellData.h"
 #include "vtkCommunicator.h"
@@ -12,7 +15,9 @@
 #include "vtkPointData.h"
 
 #include <algorithm>
-#include <array>
+#include <cstdlib>
+#include <new>
+#include <sstream>
 #include <string>
 
 namespace brainshift
@@ -48,30 +53,13 @@ std::vector<vtkDataArray*> sentOf(vtkDataSetAttributes* attributes)
   {
     vtkDataArray* array = attributes->GetArray(i);
     const std::string name = array && array->GetName() ? array->GetName() : "";
-    if (!name.empty() && name != vtkDataSetAttributes::GhostArrayName())
+    if (!name.empty() && name != vtkDataSetAttributes::GhostArrayName() &&
+      array->GetDataType() != VTK_BIT)
     {
       arrays.push_back(array);
     }
   }
   return arrays;
-}
-
-// The array of this name over the wanted extent; a new one is filled with 0.
-vtkDataArray* wholeLike(vtkDataArray* part, vtkDataSetAttributes* attributes, vtkIdType tuples)
-{
-  if (vtkDataArray* there = attributes->GetArray(part->GetName()))
-  {
-    const bool alike = there->GetDataType() == part->GetDataType() &&
-      there->GetNumberOfComponents() == part->GetNumberOfComponents();
-    return alike ? there : nullptr;
-  }
-  auto array = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(part->GetDataType()));
-  array->SetName(part->GetName());
-  array->SetNumberOfComponents(part->GetNumberOfComponents());
-  array->SetNumberOfTuples(tuples);
-  array->Fill(0.0);
-  attributes->AddArray(array);
-  return array;
 }
 
 Extent extentOf(vtkImageData* part)
@@ -144,16 +132,6 @@ vtkDataSetAttributes* attributesOf(vtkImageData* volume, bool cells)
   return volume->GetPointData();
 }
 
-void copyInto(vtkImageData* volume, bool cells, vtkDataArray* values, const Extent& extent)
-{
-  const Extent wanted = extentOf(volume);
-  vtkDataArray* target = wholeLike(values, attributesOf(volume, cells), tuplesOf(wanted, cells));
-  if (target)
-  {
-    Copy{ values, extent, target, wanted }.run(extent, cells);
-  }
-}
-
 // Whether an extent has cells of a part: an extent of one layer of points has none, but in a part
 // of one layer.
 bool hasCells(const Extent& extent, const Extent& part)
@@ -166,78 +144,324 @@ bool hasCells(const Extent& extent, const Extent& part)
   return has;
 }
 
-// Calls visit(array, cells) for copies of a part's arrays over an extent within it.
-template <typename Visit>
-void forEachCopy(vtkImageData* part, const Extent& extent, const Visit& visit)
+// An array that ranks exchange.
+struct Exchanged
 {
-  const Extent held = extentOf(part);
-  for (const bool cells : { false, true })
+  bool ofCells;
+  int type; // of VTK
+  int components;
+  std::string name;
+
+  bool isLike(vtkDataArray* array) const
   {
-    for (vtkDataArray* array : sentOf(attributesOf(part, cells)))
+    return array->GetDataType() == this->type &&
+      array->GetNumberOfComponents() == this->components && array->GetName() == this->name;
+  }
+};
+
+// The arrays of the first rank that has some of the volume, known to all ranks.
+std::vector<Exchanged> exchangedBy(
+  vtkMultiProcessController* ranks, vtkImageData* part, const std::vector<Extent>& held)
+{
+  const auto owner = std::find_if_not(held.begin(), held.end(), isEmpty);
+  const int first = static_cast<int>(owner - held.begin());
+  std::ostringstream own;
+  if (ranks->GetLocalProcessId() == first)
+  {
+    for (const bool cells : { false, true })
     {
-      if (!cells || hasCells(extent, held))
+      for (vtkDataArray* array : sentOf(attributesOf(part, cells)))
       {
-        auto copy = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(array->GetDataType()));
-        copy->SetName(array->GetName());
-        copy->SetNumberOfComponents(array->GetNumberOfComponents());
-        copy->SetNumberOfTuples(tuplesOf(extent, cells));
-        Copy{ array, held, copy, extent }.run(extent, cells);
-        visit(copy.Get(), cells);
+        own << cells << ' ' << array->GetDataType() << ' ' << array->GetNumberOfComponents() << ' '
+            << array->GetName() << '\0';
       }
     }
   }
+  std::string text = own.str();
+  int length = static_cast<int>(text.size());
+  if (first < static_cast<int>(held.size()))
+  {
+    ranks->Broadcast(&length, 1, first);
+    text.resize(length);
+    ranks->Broadcast(text.data(), length, first);
+  }
+  std::vector<Exchanged> arrays;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line, '\0');)
+  {
+    Exchanged array{};
+    std::istringstream words(line);
+    words >> array.ofCells >> array.type >> array.components;
+    words.get(); // the space before the name
+    std::getline(words, array.name, '\0');
+    arrays.push_back(array);
+  }
+  return arrays;
 }
 
-// What goes ahead of arrays: their extent, and how many arrays its points and cells have.
-using Head = std::array<int, 8>;
-constexpr int PointArrays = 6;
-constexpr int CellArrays = 7;
-
-void send(vtkMultiProcessController* ranks, vtkImageData* part, const Extent& wanted, int rank)
+// This rank's values of an array; null: it has none.
+vtkDataArray* ownValues(vtkImageData* part, const Exchanged& array)
 {
-  const Extent extent = common(extentOf(part), wanted);
-  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
-  Head head{};
-  std::copy(extent.begin(), extent.end(), head.begin());
-  if (!isEmpty(extent))
+  if (!part || part->GetNumberOfPoints() == 0)
   {
-    forEachCopy(part, extent, [&](vtkDataArray* array, bool cells) {
-      arrays.emplace_back(array);
-      ++head[cells ? CellArrays : PointArrays];
+    return nullptr;
+  }
+  vtkDataArray* own = attributesOf(part, array.ofCells)->GetArray(array.name.c_str());
+  if (!own || !array.isLike(own))
+  {
+    throw Problem("its part of the volume has no array \"" + array.name +
+      "\" like that of the first rank with voxels");
+  }
+  return own;
+}
+
+double bytesOf(const Exchanged& array, const Extent& extent)
+{
+  return static_cast<double>(tuplesOf(extent, array.ofCells)) * array.components *
+    vtkDataArray::GetDataTypeSize(array.type);
+}
+
+// An array of zeros. It throws where memory is refused: VTK would print a line of its own.
+vtkSmartPointer<vtkDataArray> zeros(const Exchanged& array, vtkIdType tuples)
+{
+  const auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(array.type));
+  values->SetName(array.name.c_str());
+  values->SetNumberOfComponents(array.components);
+  const vtkIdType numbers = tuples * array.components;
+  void* memory = std::calloc(std::max<vtkIdType>(numbers, 1), values->GetDataTypeSize());
+  if (!memory)
+  {
+    throw std::bad_alloc();
+  }
+  values->SetVoidArray(memory, numbers, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  return values;
+}
+
+// Values on the way between two ranks: one layer of points or cells for each message, so that a
+// rank without memory for more can still send.
+class Layer
+{
+public:
+  explicit Layer(const Exchanged& array)
+    : Array(array)
+  {
+  }
+
+  // Has room for the layers of an extent.
+  void reserve(const Extent& extent)
+  {
+    const Extent layer{ extent[0], extent[1], extent[2], extent[3], 0, 0 };
+    const vtkIdType tuples = isEmpty(extent) ? 0 : tuplesOf(layer, this->Array.ofCells);
+    if (!this->Values || tuples > this->Values->GetNumberOfTuples())
+    {
+      this->Values = zeros(this->Array, tuples);
+    }
+  }
+
+  // Calls move(layer, bytes) for each layer of an extent.
+  template <typename Move>
+  void forEach(const Extent& extent, const Move& move)
+  {
+    const IndexRange range = rangeOf(extent.data(), this->Array.ofCells);
+    for (int k = 0; k < range.count[2]; ++k)
+    {
+      Extent layer = extent;
+      layer[4] = layer[5] = range.first[2] + k;
+      move(layer, static_cast<vtkIdType>(bytesOf(this->Array, layer)));
+    }
+  }
+
+  vtkDataArray* values() const { return this->Values; }
+
+private:
+  const Exchanged& Array;
+  vtkSmartPointer<vtkDataArray> Values;
+};
+
+// One array while it is exchanged.
+struct Transfer
+{
+  Exchanged array;
+  vtkDataArray* own = nullptr;          // of `held`
+  vtkSmartPointer<vtkDataArray> target; // of `wanted`
+  Extent held{};
+  Extent wanted{};
+
+  // What moves from one extent to another; empty: nothing.
+  Extent moved(const Extent& from, const Extent& to) const
+  {
+    const Extent both = common(from, to);
+    const bool moves = !isEmpty(both) && (!this->array.ofCells || hasCells(both, from));
+    return moves ? both : Extent{ 0, -1, 0, -1, 0, -1 };
+  }
+
+  void keep() const
+  {
+    const Extent kept = this->moved(this->held, this->wanted);
+    if (!isEmpty(kept))
+    {
+      Copy{ this->own, this->held, this->target, this->wanted }.run(kept, this->array.ofCells);
+    }
+  }
+
+  void send(vtkMultiProcessController* ranks, Layer& layer, const Extent& to, int rank) const
+  {
+    layer.forEach(this->moved(this->held, to), [&](const Extent& extent, vtkIdType bytes) {
+      Copy{ this->own, this->held, layer.values(), extent }.run(extent, this->array.ofCells);
+      ranks->GetCommunicator()->SendVoidArray(
+        layer.values()->GetVoidPointer(0), bytes, VTK_UNSIGNED_CHAR, rank, Tag);
     });
   }
-  ranks->Send(head.data(), head.size(), rank, Tag);
-  for (vtkDataArray* array : arrays)
+
+  void receive(vtkMultiProcessController* ranks, Layer& layer, const Extent& from, int rank) const
   {
-    const int type = array->GetDataType();
-    ranks->Send(&type, 1, rank, Tag);
-    ranks->Send(array, rank, Tag);
+    layer.forEach(this->moved(from, this->wanted), [&](const Extent& extent, vtkIdType bytes) {
+      ranks->GetCommunicator()->ReceiveVoidArray(
+        layer.values()->GetVoidPointer(0), bytes, VTK_UNSIGNED_CHAR, rank, Tag);
+      Copy{ layer.values(), extent, this->target, this->wanted }.run(extent, this->array.ofCells);
+    });
   }
+};
+
+// The range of each component of all values, finite ones alone.
+WholeRanges rangesOf(
+  vtkMultiProcessController* ranks, vtkImageData* part, const std::vector<Exchanged>& arrays)
+{
+  std::vector<double> own; // with the least negated, so that one maximum finds all
+  for (const Exchanged& array : arrays)
+  {
+    vtkDataArray* values = ownValues(part, array);
+    for (int component = 0; component < array.components; ++component)
+    {
+      double range[2] = { 1e300, -1e300 };
+      if (values)
+      {
+        values->GetFiniteRange(range, component);
+      }
+      own.push_back(-range[0]);
+      own.push_back(range[1]);
+    }
+  }
+  std::vector<double> all = own;
+  ranks->AllReduce(own.data(), all.data(), own.size(), vtkCommunicator::MAX_OP);
+  WholeRanges ranges;
+  auto range = all.begin();
+  for (const Exchanged& array : arrays)
+  {
+    std::vector<std::array<double, 2>> components(array.components);
+    for (std::array<double, 2>& component : components)
+    {
+      component = { -range[0], range[1] };
+      range += 2;
+    }
+    ranges.emplace(array.name, components); // points come first
+  }
+  return ranges;
 }
 
-void receive(vtkMultiProcessController* ranks, vtkImageData* volume, int rank)
+std::vector<Extent> extentsOfAll(vtkMultiProcessController* ranks, const Extent& own)
 {
-  Head head{};
-  ranks->Receive(head.data(), head.size(), rank, Tag);
-  Extent extent{};
-  std::copy_n(head.begin(), extent.size(), extent.begin());
-  for (int i = 0; i < head[PointArrays] + head[CellArrays]; ++i)
-  {
-    int type = VTK_FLOAT;
-    ranks->Receive(&type, 1, rank, Tag);
-    const auto array = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
-    ranks->Receive(array.Get(), rank, Tag);
-    copyInto(volume, i >= head[PointArrays], array, extent);
-  }
+  std::vector<Extent> all(ranks->GetNumberOfProcesses());
+  ranks->AllGather(own.data(), all[0].data(), 6);
+  return all;
 }
 
-bool isTrueOnAny(vtkMultiProcessController* ranks, bool here)
+// Takes all memory that an exchange needs, or throws. The ranks' extents are known to all.
+class Exchange
 {
-  const int own = here;
-  int any = 0;
-  ranks->AllReduce(&own, &any, 1, vtkCommunicator::MAX_OP);
-  return any != 0;
-}
+public:
+  Exchange(const std::vector<Extent>& held, const std::vector<Extent>& wanted)
+    : Held(held)
+    , Wanted(wanted)
+  {
+  }
+
+  void prepare(vtkImageData* part, const std::vector<Exchanged>& arrays, int rank)
+  {
+    const Extent& own = this->Wanted[rank];
+    double bytes = 0.0;
+    for (const Exchanged& array : arrays)
+    {
+      bytes += isEmpty(own) ? 0.0 : bytesOf(array, own);
+    }
+    const std::string what = "its part of the volume, " +
+      sizeText(glm::dvec3(own[1] - own[0] + 1, own[3] - own[2] + 1, own[5] - own[4] + 1)) +
+      " voxels,";
+    requireHostMemory(what, bytes);
+    throwIfAny(sentenceThrownBy(what, [&] {
+      this->Arrays = arrays;
+      for (const Exchanged& array : this->Arrays)
+      {
+        this->take(array, ownValues(part, array), rank);
+      }
+    }));
+  }
+
+  // Pairs of ranks take turns in one order, so that none waits for another in a circle.
+  void run(vtkMultiProcessController* ranks)
+  {
+    const int own = ranks->GetLocalProcessId();
+    const int count = ranks->GetNumberOfProcesses();
+    for (std::size_t i = 0; i < this->Transfers.size(); ++i)
+    {
+      const Transfer& transfer = this->Transfers[i];
+      transfer.keep();
+      for (int a = 0; a < count; ++a)
+      {
+        for (int b = a + 1; b < count; ++b)
+        {
+          const int other = own == a ? b : a;
+          if (own == a)
+          {
+            transfer.send(ranks, this->Layers[i], this->Wanted[other], other);
+          }
+          if (own == a || own == b)
+          {
+            transfer.receive(ranks, this->Layers[i], this->Held[other], other);
+          }
+          if (own == b)
+          {
+            transfer.send(ranks, this->Layers[i], this->Wanted[other], other);
+          }
+        }
+      }
+    }
+  }
+
+  vtkSmartPointer<vtkImageData> volume(int rank) const
+  {
+    auto image = vtkSmartPointer<vtkImageData>::New();
+    image->SetExtent(const_cast<int*>(this->Wanted[rank].data()));
+    for (const Transfer& transfer : this->Transfers)
+    {
+      attributesOf(image, transfer.array.ofCells)->AddArray(transfer.target);
+    }
+    return image;
+  }
+
+private:
+  void take(const Exchanged& array, vtkDataArray* own, int rank)
+  {
+    Transfer transfer{ array, own, nullptr, this->Held[rank], this->Wanted[rank] };
+    const bool wants = !isEmpty(transfer.wanted);
+    transfer.target = zeros(array, wants ? tuplesOf(transfer.wanted, array.ofCells) : 0);
+    Layer layer(array);
+    layer.reserve({ 0, -1, 0, -1, 0, -1 });
+    for (std::size_t other = 0; other < this->Held.size(); ++other)
+    {
+      layer.reserve(transfer.moved(transfer.held, this->Wanted[other]));
+      layer.reserve(transfer.moved(this->Held[other], transfer.wanted));
+    }
+    this->Transfers.push_back(transfer);
+    this->Layers.push_back(layer);
+  }
+
+  const std::vector<Extent>& Held;
+  const std::vector<Extent>& Wanted;
+  std::vector<Exchanged> Arrays;
+  std::vector<Transfer> Transfers;
+  std::vector<Layer> Layers;
+};
 }
 
 WholeVolume SharedVolume::wholeOf(
@@ -294,46 +518,41 @@ bool SharedVolume::changed(vtkImageData* part, const Extent& whole, const Extent
   return isChanged;
 }
 
-// Pairs of ranks take turns in one order, so that none waits for another in a circle.
-void SharedVolume::exchange(
-  vtkMultiProcessController* ranks, vtkImageData* part, const Extent& wanted)
+std::string SharedVolume::exchange(vtkMultiProcessController* ranks, vtkImageData* part,
+  const Extent& wanted, const std::string& problem)
 {
+  const std::vector<Extent> allHeld = extentsOfAll(ranks, extentOf(part));
+  const std::vector<Extent> allWanted = extentsOfAll(ranks, wanted);
+  const std::vector<Exchanged> arrays = exchangedBy(ranks, part, allHeld);
   const int own = ranks->GetLocalProcessId();
-  const int count = ranks->GetNumberOfProcesses();
-  std::vector<Extent> all(count);
-  ranks->AllGather(wanted.data(), all[0].data(), 6);
-  this->Voxels = vtkSmartPointer<vtkImageData>::New();
-  this->Voxels->SetExtent(const_cast<int*>(wanted.data()));
-  const Extent kept = common(extentOf(part), wanted);
-  if (!isEmpty(kept))
+  Exchange exchange(allHeld, allWanted);
+  std::string refused = problem;
+  if (refused.empty())
   {
-    forEachCopy(part, kept,
-      [&](vtkDataArray* array, bool cells) { copyInto(this->Voxels, cells, array, kept); });
+    refused =
+      sentenceThrownBy("its part of the volume", [&] { exchange.prepare(part, arrays, own); });
   }
-  for (int a = 0; a < count; ++a)
+  refused = problemOnAny(ranks, refused);
+  if (refused.empty())
   {
-    for (int b = a + 1; b < count; ++b)
-    {
-      if (own == a)
-      {
-        send(ranks, part, all[b], b);
-        receive(ranks, this->Voxels, b);
-      }
-      else if (own == b)
-      {
-        receive(ranks, this->Voxels, a);
-        send(ranks, part, all[a], a);
-      }
-    }
+    exchange.run(ranks);
+    this->Voxels = exchange.volume(own);
+    this->Ranges = rangesOf(ranks, part, arrays);
   }
+  return refused;
 }
 
 vtkSmartPointer<vtkImageData> SharedVolume::share(vtkMultiProcessController* ranks,
-  vtkImageData* part, const WholeVolume& whole, const Extent& wanted)
+  vtkImageData* part, const WholeVolume& whole, const Extent& wanted, std::string& problem)
 {
-  if (isTrueOnAny(ranks, this->changed(part, whole.extent, wanted)))
+  if (isTrueOnAny(ranks, this->changed(part, whole.extent, wanted) || !problem.empty()))
   {
-    this->exchange(ranks, part, wanted);
+    problem = this->exchange(ranks, part, wanted, problem);
+    if (!problem.empty())
+    {
+      this->Extents.clear(); // the next time is another try
+      return nullptr;
+    }
   }
   auto volume = vtkSmartPointer<vtkImageData>::New();
   if (isEmpty(wanted) || !part)

@@ -10,6 +10,8 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <string>
+
 class vtkDataArray;
 class vtkMultiProcessController;
 
@@ -41,10 +43,17 @@ public:
    * @param part     this rank's part of the volume; null: none
    * @param whole    what wholeOf returned
    * @param wanted   this rank's extent; empty: none
-   * @return the wanted extent, or an image without points; points that no part holds are 0
+   * @param problem  why this rank cannot take part, without a full stop; empty: it can. Becomes why
+   *                 one of the ranks cannot, the same on all.
+   * @return the wanted extent, or an image without points; points that no part holds are 0. Null
+   *         on all ranks if there is a problem: nothing was exchanged then.
    */
   vtkSmartPointer<vtkImageData> share(vtkMultiProcessController* ranks, vtkImageData* part,
-    const WholeVolume& whole, const Extent& wanted);
+    const WholeVolume& whole, const Extent& wanted, std::string& problem);
+
+  /** The ranges of the whole volume's values, finite ones alone, since the last exchange. An array
+   * of cells has none if one of points has its name. */
+  const WholeRanges& ranges() const { return this->Ranges; }
 
 private:
   struct Known
@@ -55,8 +64,10 @@ private:
   };
 
   bool changed(vtkImageData* part, const Extent& whole, const Extent& wanted);
-  void exchange(vtkMultiProcessController* ranks, vtkImageData* part, const Extent& wanted);
+  std::string exchange(vtkMultiProcessController* ranks, vtkImageData* part, const Extent& wanted,
+    const std::string& problem);
 
+  WholeRanges Ranges;
   std::vector<Known> Arrays;            // of this rank's part, as sent last
   std::vector<int> Extents;             // of this rank's part, of the whole, and wanted
   vtkSmartPointer<vtkImageData> Voxels; // of the wanted extent

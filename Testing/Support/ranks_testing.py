@@ -3,13 +3,15 @@
 script of pvbatch, this module writes the answers into the file that it is given."""
 
 import os
+import re
 import subprocess
 import sys
 
 import numpy
-from brainshift_testing import picture, scratch, show_volume, view_along
+from brainshift_testing import look, picture, scratch, show_volume, view_along
 from paraview import servermanager, simple
 from slices_testing import show_slices
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 SIZE = 120
 MIDDLE = (0.0, 0.0, 0.0)
@@ -18,6 +20,14 @@ COLORS = [0, 0, 0, 1, 150, 0, 1, 0, 300, 1, 0, 0]
 OPACITIES = [0, 0, 0.5, 0, 150, 0.02, 0.5, 0, 300, 0.3, 0.5, 0]
 PIXELS = [(SIZE // 2, SIZE // 2), (45, 68), (75, 52), (2, 2)]
 NOWHERE = (numpy.nan,) * 3
+REFUSES = 4 << 20  # bytes that a rank may take; its part of a volume is larger
+#: What the first of several ranks reports then, each once.
+REFUSALS = ["MPI rank 1 of {}: its part of the volume, .* The first rank draws the whole volume",
+            "MPI rank 0 of {}: its part of the volume, .* The picture stays as it was"]
+#: Why ranks draw no parts, as reported.
+REASONS = ["Trace Points are shown beside it", "a volume that is no Deformed Volume is shown",
+           "it is shown as slices", "its blend mode is neither", "it has a 2D transfer function",
+           "two colours compare it with a reference"]
 
 # Points of a ball, shared out among the ranks in order.
 PARTS = """
@@ -31,6 +41,20 @@ points = vtkPoints()
 for place in numpy.array_split(places, ranks.GetNumberOfProcesses())[ranks.GetLocalProcessId()]:
     points.InsertNextPoint(place)
 self.GetPolyDataOutput().SetPoints(points)
+"""
+
+# Gives a rank this many bytes more than it has, or all again.
+LIMIT = """
+import resource
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+rank, more = {rank}, {more}
+ranks = vtkMultiProcessController.GetGlobalController()
+if ranks.GetNumberOfProcesses() > 1 and rank == ranks.GetLocalProcessId():
+    most = resource.getrlimit(resource.RLIMIT_AS)[1]
+    with open("/proc/self/statm") as taken:
+        pages = int(taken.read().split()[0])
+    resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + more, most)
+                       if more else (most, most))
 """
 
 #: How a program starts on several ranks of one machine, whatever its cores and its user.
@@ -164,6 +188,99 @@ def answer_parts(found):
     found["large plain, parallel"] = picture(plain)
 
 
+def answer_features(found):
+    """What needs the range of all values, or cuts the volume."""
+    view = see()
+    for name, source in (("", bent()), (", not bent", wavelet())):
+        display = show_volume(source, view, "Deformed Volume", COLORS, OPACITIES, array="RTData",
+                              shade=True)
+        display.GradientOpacity = [0, 0.2, 20, 0.2, 30, 1]
+        found["gradient opacity" + name] = picture(view)
+        display.GradientOpacity = []
+        display.UseCropping = 1
+        display.CroppingOrigin, display.CroppingScale = [2, -1, 1], [0.6, 0.5, 0.7]
+        found["cropped" + name] = picture(view)
+        display.UseCropping = 0
+        table = simple.GetTransferFunction2D("RTData", None, display, separate=True)
+        table.OutputDimensions = [256, 256]
+        table.Range = [30.0, 280.0, 0.0, 60.0]
+        table.Boxes = [60.0, 5.0, 170.0, 40.0, 0.9, 0.3, 0.1, 0.2]
+        display.TransferFunction2D, display.UseTransfer2D = table, 1
+        found["2D transfer function" + name] = picture(view)
+        display.Visibility = 0
+    simple.Delete(view)
+
+
+def show_two(kind, make, view):
+    """Two volumes, one before the other, of other values, as what `make` gives of their source."""
+    far = simple.Wavelet(WholeExtent=[-12, 12, -12, 12, 15, 39], Center=[0, 0, 27])
+    volumes = [make(wavelet()), make(far)]
+    displays = [show_volume(volume, view, kind, COLORS, OPACITIES, array="RTData", shade=True)
+                for volume in volumes]
+    displays[1].LookupTable.RGBPoints = [0, 0, 1, 0, 150, 1, 0, 1, 300, 0, 0, 1]
+    return volumes, displays
+
+
+def answer_several(found):
+    """Two volumes in one view, also with a surface that cuts both."""
+    import brainshift
+    view = view_along((-0.5, 0.3, -1), (0, 0, 12), 110.0, size=SIZE)
+    volumes, displays = show_two(
+        "Deformed Volume", lambda source: simple.FreeFormDeformation(Input=source), view)
+    found["two"] = picture(view)
+    volumes[1].Strokes = brainshift.soft((0, 0, 20), (6, 5, -4), 14.0)
+    found["two, one bent"] = picture(view)
+    look(view, (0.9, 0.2, 0.4), (0, 0, 12), 110.0)
+    found["two, from the side"] = picture(view)
+    ball = simple.Show(simple.Sphere(Center=(2, 3, 13), Radius=9, ThetaResolution=40,
+                                     PhiResolution=40), view, "GeometryRepresentation")
+    ball.DisableLighting = 1
+    found["two and a ball"] = picture(view)
+    displays[1].BlendMode = 1  # the first rank draws both
+    found["two, one as its maximum"] = picture(view)
+    displays[1].Visibility = 0
+    found["two, one hidden"] = picture(view)
+    displays[0].Visibility, displays[1].Visibility, displays[1].BlendMode = 0, 1, 0
+    found["two, the other hidden"] = picture(view)
+    show_volume(wavelet(), view, "Volume", COLORS, OPACITIES, array="RTData")
+    picture(view)  # in no right order, which is reported
+    simple.Delete(view)
+
+
+def limit(rank, more):
+    """Lets a rank take that many bytes more; 0: as many as there are."""
+    simple.ProgrammableSource(OutputDataSetType="vtkPolyData",
+                              Script=LIMIT.format(rank=rank, more=more)).UpdatePipeline()
+
+
+def answer_refusal(found):
+    """A rank gets no memory for its part, then the first rank gets none, then all get it again."""
+    import brainshift
+    volume = simple.FreeFormDeformation(Input=simple.Wavelet(WholeExtent=[-80, 80] * 3))
+    volume.UpdatePipeline()
+    view = view_along((-0.5, 0.3, -1), MIDDLE, 450.0, size=SIZE)
+    display = show_volume(volume, view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
+    display.Visibility = 0
+    picture(view)  # windows and mappers need memory, too
+    limit(1, REFUSES)
+    display.Visibility = 1
+    found["one refuses"] = picture(view)
+    found["bytes one refuses"] = numpy.array([brainshift.gpu(display)["gpuScalarBytes"]])
+    limit(1, 0)
+    display.RankHalo = 5.0
+    found["none refuses"] = picture(view)
+    found["bytes none refuses"] = numpy.array([brainshift.gpu(display)["gpuScalarBytes"]])
+    limit(0, REFUSES)
+    volume.Strokes = brainshift.soft(MIDDLE, (70, 20, -10), 150.0)
+    kept = picture(view)
+    limit(0, 0)
+    display.RankHalo = 6.0
+    found["strokes that a rank refused"] = picture(view)
+    ranks = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses()
+    expected = found["none refuses" if ranks > 1 else "strokes that a rank refused"]
+    found["picture of a refused stroke"] = numpy.array([abs(kept - expected).max()])
+
+
 def answer_comparison(found):
     compared = simple.CompareVolumes(Input=bent(), Reference=wavelet())
     view = see()
@@ -183,6 +300,9 @@ def answer_stock(found):
     show_volume(simple.Wavelet(WholeExtent=[-30, 30] * 3), large, "Volume", COLORS, OPACITIES,
                 array="RTData", shade=True)
     found["stock large"] = picture(large)
+    two = view_along((-0.5, 0.3, -1), (0, 0, 12), 110.0, size=SIZE)
+    show_two("Volume", lambda source: source, two)
+    found["stock two"] = picture(two)
 
 
 def answer_traces(found):
@@ -239,10 +359,14 @@ def answer_files(found, folder):
 def answers(folder=None):
     """All answers by name: pictures [row, column, colour], picks (mm), numbers of filters."""
     found = {}
+    if folder:
+        answer_refusal(found)
     answer_volume(found)
     answer_looks(found)
     answer_scene(found)
     answer_parts(found)
+    answer_features(found)
+    answer_several(found)
     answer_slices(found)
     answer_letters(found)
     answer_comparison(found)
@@ -254,24 +378,34 @@ def answers(folder=None):
     return found
 
 
-def batch(ranks, folder, script=__file__):
+def batch(ranks, folder, script=__file__, expected=()):
     """What pvbatch answers on that many ranks, and what it says. The script is a module like this
-    one."""
+    one; it reports errors that match the expected expressions, each once."""
     os.makedirs(folder, exist_ok=True)
     name = scratch(f"ranks{ranks}.npz")
     command = [*MPI, str(ranks), os.environ["BRAINSHIFT_PVBATCH"], script, name, folder]
-    ended = subprocess.run(command, text=True, capture_output=True, timeout=600)
+    # Memory that was given back must not serve a rank that has no more.
+    environment = {**os.environ, "MALLOC_MMAP_THRESHOLD_": str(1 << 20)}
+    ended = subprocess.run(command, text=True, capture_output=True, timeout=600, env=environment)
     said = ended.stdout + ended.stderr
     assert ended.returncode == 0, f"pvbatch ended with {ended.returncode}: {said}"
     errors = [line for line in said.splitlines()
               if "ERR|" in line and "No plugin loaded yet" not in line]  # it was loaded already
+    for expression in expected:
+        found = [line for line in errors if re.search(expression, line)]
+        assert len(found) == 1, (expression, errors)
+        errors.remove(found[0])
     assert not errors, errors
     with numpy.load(name) as saved:
         return dict(saved), said
 
 
 def answers_of_batch(ranks, folder):
-    return batch(ranks, folder)[0]
+    found, said = batch(ranks, folder, expected=[line.format(ranks) for line in REFUSALS])
+    for reason in REASONS:
+        sentence = f"The first of {ranks} MPI ranks holds and draws the whole volume: {reason}"
+        assert sentence in said, (sentence, said)
+    return found
 
 
 if __name__ == "__main__":

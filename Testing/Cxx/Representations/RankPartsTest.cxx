@@ -9,6 +9,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <iostream>
+#include <map>
 #include <random>
 
 using namespace brainshift;
@@ -158,6 +161,34 @@ TEST(RankParts, NeedLittleMoreThanTheirOwn)
   EXPECT_EQ(restExtent(volume, &lattice, part, 0.0), still);
   lattice.displacements[lattice.grid.offset(2, 2, 2)] = glm::vec3(-3.0f, 0.0f, 0.0f);
   EXPECT_EQ(restExtent(volume, &lattice, part, 0.0), (Extent{ 5, 31, -3, 20, 2, 15 }));
+}
+
+// The figures of Documentation/servers.md: 512 points of 0.5 mm a side, a halo of 10 mm.
+TEST(RankParts, HoldTheirFractionAndAHalo)
+{
+  WholeVolume volume;
+  volume.extent = { 0, 511, 0, 511, 0, 511 };
+  volume.grid.dimensions = glm::ivec3(512);
+  volume.grid.spacing = glm::dvec3(0.5);
+  const std::map<int, double> most{ { 1, 1.0 }, { 2, 0.55 }, { 4, 0.30 }, { 8, 0.17 },
+    { 64, 0.041 } };
+  for (const auto& [ranks, fraction] : most)
+  {
+    double largest = 0.0;
+    for (const Box& part : rankParts(boundsOf(volume, 0.0), ranks))
+    {
+      const Extent extent = restExtent(volume, nullptr, part, 10.0);
+      double points = 1.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        points *= extent[2 * axis + 1] - extent[2 * axis] + 1;
+      }
+      largest = std::max(largest, points / std::pow(512.0, 3.0));
+    }
+    std::cout << ranks << " ranks: the largest holds " << largest << "\n";
+    EXPECT_LE(largest, fraction) << ranks;
+    EXPECT_GE(largest, 1.0 / ranks) << ranks;
+  }
 }
 
 TEST(RankParts, BeyondTheVolumeHaveItsNearestVoxels)

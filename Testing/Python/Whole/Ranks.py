@@ -43,6 +43,13 @@ def expected_answers():
     return answers(folder_of(1))
 
 
+def assert_refused(found):
+    """The first rank draws for one that refuses; the picture stays if the first refuses, too."""
+    assert found["bytes one refuses"] == EXPECTED["bytes one refuses"]
+    assert found["bytes none refuses"] < 0.8 * EXPECTED["bytes none refuses"]
+    assert found["picture of a refused stroke"] == 0.0
+
+
 EXPECTED = expected_answers()
 EXPECTED_FILES = files_of(folder_of(1))
 
@@ -54,10 +61,10 @@ def largest(found, expected):
     return numpy.abs(numpy.nan_to_num(found) - numpy.nan_to_num(expected)).max()
 
 
-def assert_same(found):
-    assert set(found) == set(EXPECTED), set(found) ^ set(EXPECTED)
+def assert_same(found, expected=EXPECTED):
+    assert set(found) == set(expected), set(found) ^ set(expected)
     allowed = numpy.max([largest(found[name], EXPECTED[name])
-                         for name in ("stock", "stock large")])
+                         for name in ("stock", "stock large", "stock two")])
     differences = {name: largest(numbers, EXPECTED[name]) for name, numbers in found.items()}
     print(differences, flush=True)
     for name, difference in differences.items():
@@ -91,13 +98,16 @@ def test_one_process_has_something_to_compare():
 
 
 def test_two_ranks_of_pvbatch():
-    assert_same(answers_of_batch(2, folder_of(2)))
+    found = answers_of_batch(2, folder_of(2))
+    assert_same(found)
+    assert_refused(found)
     assert_same_files(folder_of(2))
 
 
 def test_four_ranks_of_pvbatch():
     found = answers_of_batch(4, folder_of(4))
     assert_same(found)
+    assert_refused(found)
     assert_same_files(folder_of(4))
     assert found["bytes again"] <= found["bytes far"], "the first rank gives the whole volume back"
     for name, most in (("unbent", 0.55), ("bent", 0.75)):  # a quarter, and 10 mm of 60 beyond
@@ -107,7 +117,8 @@ def test_four_ranks_of_pvbatch():
 
 
 def test_a_server_of_two_ranks():
-    assert_same(on_server(answers, launcher=[*MPI, "2"], **SERVER_FINDS_PLUGIN))
+    of_both = {name for name in EXPECTED if "refuse" not in name}
+    assert_same(on_server(answers, launcher=[*MPI, "2"], **SERVER_FINDS_PLUGIN), of_both)
 
 
 run_tests(globals())

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// What MPI ranks agree on before they exchange anything: a rank that fails between two exchanges
+/// would let the others wait for ever. All ranks must call each function together.
+#ifndef BrainShift_RankAgreement_h
+#define BrainShift_RankAgreement_h
+
+#include "Representations/Window/RankParts.h"
+
+#include <string>
+
+class vtkMultiProcessController;
+
+namespace brainshift
+{
+/** Whether something is true on one rank or more. */
+bool isTrueOnAny(vtkMultiProcessController* ranks, bool here);
+
+/**
+ * Why something fails, on all ranks: the sentence of the first rank that has one, with the rank
+ * before it. Empty if none has one.
+ *
+ * @param here   this rank's sentence without a full stop; empty: it does not fail
+ */
+std::string problemOnAny(vtkMultiProcessController* ranks, const std::string& here);
+
+/** The smallest box that holds the boxes of all ranks. */
+Box boxOfAll(vtkMultiProcessController* ranks, const Box& here);
+}
+
+#endif
