@@ -142,13 +142,17 @@ def read_scene(path):
     try:
         try:
             handler = _parsed(data, None)
-        except (xml.parsers.expat.ExpatError, ValueError):
+        except SceneProblem:
+            raise
+        except (xml.parsers.expat.ExpatError, ValueError, LookupError):
             if b"encoding=" in data[:200]:
                 raise
             handler = _parsed(data, "iso-8859-1")  # old scenes of Windows
             notes.append("The scene is no UTF-8 and names no encoding; its names are read as "
                          "Latin-1.")
-    except xml.parsers.expat.ExpatError as error:
+    except SceneProblem:
+        raise
+    except (xml.parsers.expat.ExpatError, ValueError, LookupError) as error:
         raise SceneProblem(f"is no good XML: {error}") from error
     for node in handler.nodes:
         if node.id and node.id in by_id:

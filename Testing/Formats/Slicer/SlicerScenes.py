@@ -481,6 +481,7 @@ def test_hostile_scenes():
     raises("more than 20000 nodes", write("many.mrml", "<MRML>" + "<View/>" * 20001 + "</MRML>"))
     raises("begins with <html>", write("html.mrml", "<html></html>"))
     raises("no good XML", write("cut.mrml", "<MRML><View "))
+    raises("no good XML", write("odd.mrml", '<?xml version="1.0" encoding="odd"?><MRML></MRML>'))
     raises("cannot be read", scratch("nothing.mrml"))
     raises("not a zip file", write("bad.mrb", "<MRML>"))
     # What scenes of Slicer 2 begin with names no entity.
