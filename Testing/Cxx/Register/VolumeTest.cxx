@@ -107,7 +107,7 @@ TEST(RegisterVolume, WeightsShrink)
 {
   const Grid grid = smallGrid();
   const Mask removed = ball(grid, grid.worldFromGrid({ 20, 20, 20 }), 7.0);
-  const Volume weights = weightsOf(grid, { &grid, nullptr, &removed }, { 2, 1 });
+  const Volume weights = weightsOf(grid, { &grid, nullptr, { &removed } }, { 2, 1 });
   const auto at = [&](int i) { return weights.values[grid.offset(i, 20, 20)]; };
   EXPECT_EQ(at(20), 0.0f);
   EXPECT_EQ(at(25), 0.0f) << "2 points beside the last voxel of the ball";
@@ -118,10 +118,10 @@ TEST(RegisterVolume, WeightsShrink)
   EXPECT_EQ(at(0), 1.0f) << "the border of the grid shrinks nothing";
   Grid moved = grid;
   moved.origin = grid.worldFromGrid({ 10, 0, 0 });
-  const Volume within = weightsOf(grid, { &moved, &removed, nullptr }, {});
+  const Volume within = weightsOf(grid, { &moved, &removed, {} }, {});
   EXPECT_EQ(within.values[grid.offset(20, 20, 20)], 1.0f);
   EXPECT_EQ(within.values[grid.offset(30, 20, 20)], 0.0f) << "not in the mask";
-  EXPECT_EQ(weightsOf(grid, { &moved, nullptr, nullptr }, {}).values[grid.offset(9, 5, 5)], 0.0f);
+  EXPECT_EQ(weightsOf(grid, { &moved, nullptr, {} }, {}).values[grid.offset(9, 5, 5)], 0.0f);
 }
 
 TEST(RegisterVolume, RangesLeaveOutFewValues)
