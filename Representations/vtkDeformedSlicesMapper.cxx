@@ -29,6 +29,11 @@
 
 using namespace brainshift;
 
+namespace
+{
+constexpr double NoLimit = 0.0; // of memory
+}
+
 struct vtkDeformedSlicesMapper::Device
 {
   TissueTextures Tissue;
@@ -40,6 +45,7 @@ struct vtkDeformedSlicesMapper::Device
   GpuMemory Memory;
   FinestLevel Level;
   DrawnSlices Drawn;
+  ValueLayout DrawnLayout; // that its texture coordinates are of
 
   void Release(vtkWindow* window)
   {
@@ -105,8 +111,8 @@ void vtkDeformedSlicesMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
     if (!drawn && this->Internal->Reported != problem)
     {
       vtkErrorMacro(<< problem << ". The slices are not drawn.");
-      this->Internal->Reported = problem;
     }
+    this->Internal->Reported = drawn ? std::string() : problem;
   });
 }
 
@@ -137,6 +143,8 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
   tissue.labels = isLabelMap(image);
   tissue.nearest = tissue.labels || this->Interpolation == Nearest;
+  values.scalars->GetFiniteRange(
+    &tissue.range[0], drawnComponents(tissue.property, values.scalars).scalar);
   const ReferenceVolume reference = readReference(image);
   tissue.compared = reference.voxels &&
     (reference.show == ReferenceShow::Reference ||
@@ -146,10 +154,10 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   gpu.moving = isMoving(window->GetDesiredUpdateRate());
   takeOutOfMemory(); // errors of others
   const auto draw = [&] {
-    return this->AskForMemory(gpu, device, tissue) &&
+    return device.Deformation.askForMemory(gpu, device.Memory, this->NeedOf(tissue), NoLimit) &&
       this->DrawPlanes(gpu, { renderer, volume }, device, tissue);
   };
-  const bool drawn = device.Level.draw(gpu, tissue, [&] {
+  const bool drawn = device.Level.draw(gpu, tissue, this->NeedOf(tissue), NoLimit, [&] {
     const bool done = draw();
     if (takeOutOfMemory())
     {
@@ -169,14 +177,12 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   return drawn;
 }
 
-bool vtkDeformedSlicesMapper::AskForMemory(
-  GpuTask& gpu, Device& device, const TissueRequest& tissue)
+MemoryNeed vtkDeformedSlicesMapper::NeedOf(const TissueRequest& tissue)
 {
   DrawnSizes sizes;
   addTissueSizes(tissue, sizes);
   this->Internal->Deformation.addSizes(sizes);
-  constexpr double noLimit = 0.0;
-  return device.Deformation.askForMemory(gpu, device.Memory, memoryNeed(sizes), noLimit);
+  return memoryNeed(sizes);
 }
 
 bool vtkDeformedSlicesMapper::DrawPlanes(
@@ -186,10 +192,14 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
   SliceScene scene;
   DeviceDeformation::Change change;
   if (!device.Tissue.update(gpu, tissue, scene.tissue) ||
-    !device.Deformation.update(gpu, state.Deformation, tissue.values, scene.field, change) ||
-    !this->UploadReference(gpu, device, tissue, scene))
+    !device.Deformation.update(gpu, state.Deformation, tissue.values, scene.field, change))
   {
     return false;
+  }
+  if (!this->UploadReference(gpu, device, tissue, scene))
+  {
+    gpu.goOnWithout("The reference is not drawn");
+    scene.reference = ReferenceScene();
   }
   if (this->ShowEvidence &&
     !device.Evidence.update(gpu, state.Deformation, tissue.values, scene.evidence))
@@ -206,6 +216,7 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
   scene.cubic =
     this->Interpolation == Cubic && !tissue.nearest && !CategoryScalars::areWanted(tissue.property);
   device.Drawn = { scene.planes, scene.frame.worldFromTexture };
+  device.DrawnLayout = tissue.values.layout;
   state.Property = tissue.property;
   scene.selecting = seen.renderer->GetSelector() != nullptr;
   scene.blended = this->IsTranslucent() && !scene.selecting;
@@ -261,8 +272,9 @@ void vtkDeformedSlicesMapper::PlacePlanes(const DrawnValues& values, SliceScene&
   scene.mapsOpacity = this->MapOpacity;
 }
 
-// Tissue is not seen outside the volume, without a value, or where it is transparent.
-bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
+// Tissue is not seen outside the volume, without a value, or where it is transparent. `texture`: in
+// the layout that was drawn, which may be coarser than the voxels.
+bool vtkDeformedSlicesMapper::IsSeenAt(const ValueLayout& drawn, const glm::dvec3& texture)
 {
   State& state = *this->Internal;
   auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
@@ -272,10 +284,10 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
   {
     return false;
   }
-  glm::dvec3 rest = texture;
+  const glm::dvec3 place = (texture - drawn.textureOfGridZero) / drawn.textureFromGrid;
+  glm::dvec3 rest = place * layout.textureFromGrid + layout.textureOfGridZero;
   if (state.Deformation.deformed)
   {
-    const glm::dvec3 place = (texture - layout.textureOfGridZero) / layout.textureFromGrid;
     rest = textureFromWorld(
       values, state.Deformation.map().restFromDeformed(values.grid.worldFromGrid(place)));
   }
@@ -300,7 +312,7 @@ bool vtkDeformedSlicesMapper::Pick(
   }
   for (const SliceHit& hit : hitsUnderPixel(device->Drawn, renderer, x, y))
   {
-    if (this->IsSeenAt(hit.texture))
+    if (this->IsSeenAt(device->DrawnLayout, hit.texture))
     {
       std::copy_n(&hit.world[0], 3, position);
       std::copy_n(&hit.normal[0], 3, normal);

@@ -32,9 +32,11 @@ struct Counters;
 struct DrawnValues;
 struct DrawnVolume;
 struct GpuTask;
+struct MemoryNeed;
 struct SliceScene;
 struct TissueFacts;
 struct TissueRequest;
+struct ValueLayout;
 }
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedSlicesMapper : public vtkVolumeMapper
@@ -227,15 +229,14 @@ private:
 
   // False, with a problem, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
-  bool AskForMemory(
-    brainshift::GpuTask& gpu, Device& device, const brainshift::TissueRequest& tissue);
+  brainshift::MemoryNeed NeedOf(const brainshift::TissueRequest& tissue);
   bool DrawPlanes(brainshift::GpuTask& gpu, const brainshift::DrawnVolume& seen, Device& device,
     const brainshift::TissueRequest& tissue);
   bool UploadReference(brainshift::GpuTask& gpu, Device& device,
     const brainshift::TissueRequest& tissue, brainshift::SliceScene& scene);
   void PlacePlanes(const brainshift::DrawnValues& values, brainshift::SliceScene& scene);
   void UpdateDeformation(vtkImageData* image);
-  bool IsSeenAt(const glm::dvec3& texture); // deformed frame
+  bool IsSeenAt(const brainshift::ValueLayout& drawn, const glm::dvec3& texture); // deformed frame
 
   bool ShowSagittal = true;
   bool ShowCoronal = true;

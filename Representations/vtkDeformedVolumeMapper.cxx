@@ -10,6 +10,7 @@
 #include "Representations/Scene/Remarks.h"
 #include "Representations/Window/RankParts.h"
 
+#include "vtkCellData.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
@@ -37,18 +38,24 @@ void drawInSoftware(vtkVolumeMapper* mapper, vtkSmartVolumeMapper* fallback);
 
 namespace
 {
-// Of the whole volume, also if this process has a part of it.
-glm::dvec2 rangeOf(const std::optional<DrawnPart>& part, vtkDataArray* scalars, int component)
+// Of the whole volume, also if this process has a part of it. `component`: -1 for the magnitude.
+glm::dvec2 rangeOf(const std::optional<DrawnPart>& part, vtkImageData* image,
+  const DrawnValues& values, int component)
 {
   glm::dvec2 range;
-  scalars->GetFiniteRange(&range[0], component);
-  const char* name = scalars->GetName();
+  values.scalars->GetFiniteRange(&range[0], component);
+  const char* name = values.scalars->GetName();
   if (part && name)
   {
-    const auto known = part->ranges.find(name);
-    const bool isKnown =
-      known != part->ranges.end() && component < static_cast<int>(known->second.size());
-    range = isKnown ? glm::dvec2(known->second[component][0], known->second[component][1]) : range;
+    const bool ofCells = image->GetCellData()->GetArray(name) == values.scalars;
+    const auto known = part->ranges.find({ ofCells, name });
+    if (known != part->ranges.end())
+    {
+      const int last = static_cast<int>(known->second.size()) - 1; // the magnitude
+      const std::array<double, 2>& whole =
+        known->second[component < 0 ? last : std::min(component, last)];
+      range = glm::dvec2(whole[0], whole[1]);
+    }
   }
   return range;
 }
@@ -208,7 +215,11 @@ void vtkDeformedVolumeMapper::DrawAnyhow(vtkRenderer* renderer, vtkVolume* volum
   {
     problem = "Deformed Volume " + thrown;
   }
-  if (!drawn)
+  if (drawn)
+  {
+    this->Internal->Reported.clear(); // the same problem is new when it comes again
+  }
+  else
   {
     this->DrawUndeformed(renderer, volume, problem);
   }
@@ -311,7 +322,7 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   tissue.blend = blendOf(this, property);
   tissue.opacity = opacityOf(this, property, values.scalars);
   tissue.range =
-    rangeOf(this->Internal->Part, values.scalars, drawnComponents(property, values.scalars).scalar);
+    rangeOf(this->Internal->Part, image, values, drawnComponents(property, values.scalars).scalar);
   tissue.gradients = static_cast<GradientSource>(this->NormalTexture);
   tissue.labels = isLabelMap(image);
   tissue.nearest = tissue.labels || property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION;

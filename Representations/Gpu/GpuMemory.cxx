@@ -168,7 +168,7 @@ std::string textureProblem(vtkOpenGLRenderWindow* window, const glm::ivec3& texe
 std::string refusedTexture(const glm::ivec3& texels)
 {
   return "The GPU refused a 3D texture of " + std::to_string(texels.x) + " x " +
-    std::to_string(texels.y) + " x " + std::to_string(texels.z) + " voxels";
+    std::to_string(texels.y) + " x " + std::to_string(texels.z) + " values";
 }
 
 bool takeOutOfMemory()

@@ -67,7 +67,15 @@ struct GpuTask
     return false;
   }
 
-  /// The same, if the driver gave no memory.
+  /// A part of the picture that failed is left out, as a remark says.
+  void goOnWithout(const std::string& what)
+  {
+    this->remarks.push_back(this->problem + ". " + what);
+    this->problem.clear();
+    this->lacksMemory = this->refused = false;
+  }
+
+  /// The same as fail, if the driver gave no memory.
   bool refuse(const std::string& sentence)
   {
     this->lacksMemory = this->refused = true;

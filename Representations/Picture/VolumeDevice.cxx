@@ -42,6 +42,20 @@ void widenTile(PictureWish& wish, RayCastScene& scene)
 }
 }
 
+namespace
+{
+MemoryNeed needOf(const VolumeRequest& request, const SceneDeformation& deformation)
+{
+  DrawnSizes sizes;
+  addTissueSizes(request.tissue, sizes);
+  sizes.pixels = request.wish.size;
+  deformation.addSizes(sizes);
+  MemoryNeed need = memoryNeed(sizes);
+  need.reference = request.reference.exists() ? referenceBytes(request.reference) : 0;
+  return need;
+}
+}
+
 bool VolumeDevice::draw(
   GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation, VolumeRequest request)
 {
@@ -54,7 +68,8 @@ bool VolumeDevice::draw(
     return this->askForMemory(gpu, deformation, possible) &&
       this->drawTissue(gpu, drawn, deformation, possible);
   };
-  return this->Level.draw(gpu, request.tissue, [&] {
+  const MemoryNeed need = needOf(request, deformation);
+  return this->Level.draw(gpu, request.tissue, need, request.memoryLimitMiB, [&] {
     const bool done = draw();
     if (takeOutOfMemory())
     {
@@ -71,22 +86,16 @@ bool VolumeDevice::draw(
 bool VolumeDevice::askForMemory(
   GpuTask& gpu, const SceneDeformation& deformation, VolumeRequest& request)
 {
-  DrawnSizes sizes;
-  addTissueSizes(request.tissue, sizes);
-  sizes.pixels = request.wish.size;
-  deformation.addSizes(sizes);
-  MemoryNeed need = memoryNeed(sizes);
+  MemoryNeed need = needOf(request, deformation);
   if (request.reference.exists())
   {
-    need.reference = referenceBytes(request.reference);
     if (this->Deformation.askForMemory(gpu, this->Memory, need, request.memoryLimitMiB))
     {
       return true;
     }
-    gpu.remarks.push_back(gpu.problem + ". The reference is not drawn");
+    this->leaveOutReference(gpu);
     need.reference = 0;
     request.reference = SceneReference();
-    this->Reference.releaseGraphicsResources(gpu.window);
   }
   return this->Deformation.askForMemory(gpu, this->Memory, need, request.memoryLimitMiB);
 }
@@ -97,10 +106,14 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
   RayCastScene scene;
   RayCastScene referenceScene;
   this->Picture.begin();
-  const bool uploaded = request.reference.isAlone()
-    ? this->uploadReference(gpu, drawn, request, scene)
-    : this->uploadVolume(gpu, drawn, deformation, request, scene);
-  if (!uploaded)
+  bool alone = request.reference.isAlone();
+  if (alone && !this->uploadReference(gpu, drawn, request, scene))
+  {
+    this->leaveOutReference(gpu);
+    scene = RayCastScene();
+    alone = false;
+  }
+  if (!alone && !this->uploadVolume(gpu, drawn, deformation, request, scene))
   {
     return false;
   }
@@ -126,6 +139,21 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
     this->images().composite(gpu.window, shown, this->Picture.shade(), gpu.counters);
   this->Picture.end();
   return done;
+}
+
+namespace
+{
+// Cropping counts from the same box on each rank.
+DrawnValues valuesToCrop(const VolumeRequest& request)
+{
+  DrawnValues values = request.tissue.values;
+  if (!request.part.empty())
+  {
+    Grid& grid = values.grid;
+    grid.origin = grid.worldFromGrid(request.wholeLow) - request.wholeLow * grid.spacing;
+  }
+  return values;
+}
 }
 
 // The volume with its offset field and the bricks of the deformed frame.
@@ -156,19 +184,16 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
     return false;
   }
   SceneField space = scene.field;
-  DrawnValues cropped = tissue.values;
-  if (!request.part.empty()) // samples and cropping count from the same box on each rank
+  if (!request.part.empty()) // samples count from the same box on each rank
   {
     const ValueLayout& layout = tissue.values.layout;
-    Grid& grid = cropped.grid;
-    grid.origin = grid.worldFromGrid(request.wholeLow) - request.wholeLow * grid.spacing;
     const auto textureFromVoxel = [&](const glm::dvec3& voxel) {
       return voxel * layout.textureFromGrid + layout.textureOfGridZero;
     };
     space.spaceLow = deformation.deformed ? space.spaceLow : textureFromVoxel(request.wholeLow);
     space.spaceHigh = deformation.deformed ? space.spaceHigh : textureFromVoxel(request.wholeHigh);
   }
-  scene.cuts = cutsOf(request.mapper, cropped, scene.frame, space);
+  scene.cuts = cutsOf(request.mapper, valuesToCrop(request), scene.frame, space);
   scene.cuts.partPlanes = partPlanesOf(request.part, scene.frame.worldFromTexture);
   scene.blending = blendingFor(request, tissue, this->Tissue.Textures, scene.frame);
   return true;
@@ -186,7 +211,8 @@ bool VolumeDevice::uploadReference(
   const glm::dmat4 worldFromVolumeTexture =
     worldFromTexture(values.grid, values.layout, drawn.volume->GetMatrix());
   bool exact = true;
-  scene.cuts = cutsOfReference(request.mapper, scene, values, worldFromVolumeTexture, exact);
+  scene.cuts =
+    cutsOfReference(request.mapper, scene, valuesToCrop(request), worldFromVolumeTexture, exact);
   if (!exact)
   {
     gpu.remarks.emplace_back(
@@ -204,10 +230,15 @@ void VolumeDevice::compare(GpuTask& gpu, const DrawnVolume& drawn, const VolumeR
 {
   if (!this->Reference.compare(gpu, drawn, request.reference, scene, alone))
   {
-    this->Reference.releaseGraphicsResources(gpu.window);
-    gpu.remarks.push_back(gpu.problem + ". The reference is not drawn");
-    gpu.problem.clear();
+    this->leaveOutReference(gpu);
   }
+}
+
+// The volume is drawn without it.
+void VolumeDevice::leaveOutReference(GpuTask& gpu)
+{
+  this->Reference.releaseGraphicsResources(gpu.window);
+  gpu.goOnWithout("The reference is not drawn");
 }
 
 bool VolumeDevice::coverSelection(GpuTask& gpu, vtkRenderer* renderer)

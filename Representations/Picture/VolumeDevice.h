@@ -64,6 +64,7 @@ private:
     GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, RayCastScene& scene);
   void compare(GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request,
     RayCastScene& scene, RayCastScene& alone);
+  void leaveOutReference(GpuTask& gpu);
 
   DeviceTissue Tissue;
   DeviceReference Reference;

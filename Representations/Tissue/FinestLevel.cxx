@@ -10,7 +10,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr int CoarsestSide = 32; // texels: nobody wants to see fewer
+constexpr int CoarsestSide = 32; // texels; a head has 8 mm for each
 
 long long texelsOf(const ValueLayout& layout)
 {
@@ -32,34 +32,45 @@ glm::ivec3 voxelsPerTexel(const glm::ivec3& voxels, const glm::dvec3& spacing, i
   return glm::ivec3(glm::clamp(joined, glm::dvec3(1.0), glm::dvec3(voxels)));
 }
 
-bool FinestLevel::draw(GpuTask& gpu, TissueRequest& tissue, const std::function<bool()>& attempt)
+bool FinestLevel::draw(GpuTask& gpu, TissueRequest& tissue, const MemoryNeed& need, double limitMiB,
+  const std::function<bool()>& attempt)
 {
   const ValueLayout whole = tissue.values.layout;
-  const std::size_t remarks = gpu.remarks.size();
-  std::string problem; // of level 0
-  for (int level = 0;; ++level)
+  const Circumstances now{ whole.voxels,
+    need.scalars + need.gradients + need.colors + need.segment + need.images + need.reference,
+    limitMiB, ScalarTexture::givenBack() };
+  if (!(this->Found == now))
   {
-    if (level > 0)
-    {
-      const glm::ivec3 joined = voxelsPerTexel(whole.voxels, tissue.values.grid.spacing, level);
-      tissue.values.layout = coarser(whole, joined);
-    }
+    this->Refused = this->Found.givenBack == now.givenBack ? this->Refused : 0;
+    this->Found = now;
+    this->Level = 0;
+    this->Problem.clear();
+  }
+  const std::size_t remarks = gpu.remarks.size();
+  for (int level = this->Level;; ++level)
+  {
+    const glm::ivec3 joined = voxelsPerTexel(whole.voxels, tissue.values.grid.spacing, level);
+    tissue.values.layout = level > 0 ? coarser(whole, joined) : whole;
     const ValueLayout& layout = tissue.values.layout;
     if (this->attempt(gpu, layout, attempt))
     {
-      const glm::ivec3& joined = layout.perTexel;
+      this->Level = level;
+      this->Found.givenBack = ScalarTexture::givenBack(); // on the way, by this volume
       gpu.counters.gpuVoxelsPerTexel = static_cast<std::int64_t>(joined.x) * joined.y * joined.z;
       if (level > 0)
       {
-        gpu.remarks.push_back(remarkOn(problem, joined));
+        gpu.remarks.push_back(remarkOn(this->Problem, joined));
       }
       return true;
     }
-    problem = level == 0 ? gpu.problem : problem;
+    this->Problem = this->Problem.empty() ? gpu.problem : this->Problem;
     const glm::ivec3& side = layout.dimensions;
     if (!gpu.lacksMemory || std::max({ side.x, side.y, side.z }) <= CoarsestSide)
     {
-      gpu.problem = gpu.lacksMemory ? problem : gpu.problem;
+      gpu.problem = gpu.lacksMemory ? this->Problem : gpu.problem;
+      this->Level = 0;
+      this->Problem.clear();
+      this->Found.givenBack = ScalarTexture::givenBack();
       return false;
     }
     gpu.remarks.resize(remarks); // of what was not drawn
@@ -69,11 +80,8 @@ bool FinestLevel::draw(GpuTask& gpu, TissueRequest& tissue, const std::function<
 bool FinestLevel::attempt(
   GpuTask& gpu, const ValueLayout& layout, const std::function<bool()>& attempt)
 {
-  if (this->RefusedAt != ScalarTexture::givenBack())
-  {
-    this->Refused = 0;
-  }
   gpu.lacksMemory = gpu.refused = false;
+  gpu.problem.clear();
   const std::string problem = textureProblem(gpu.window, layout.dimensions);
   if (!problem.empty())
   {
@@ -88,11 +96,7 @@ bool FinestLevel::attempt(
   {
     return true;
   }
-  if (gpu.refused)
-  {
-    this->Refused = texels;
-    this->RefusedAt = ScalarTexture::givenBack();
-  }
+  this->Refused = gpu.refused ? texels : this->Refused;
   return false;
 }
 }

@@ -30,11 +30,15 @@ bool NormalTexture::update(GpuTask& gpu, vtkTextureObject* scalars, const glm::i
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
   Program& program = this->NormalsProgram;
-  if (!this->Texture->Allocate3D(size.x, size.y, size.z, 4, VTK_FLOAT) ||
-    !program.use(gpu.window, normalsSource(), gpu.counters))
+  if (!program.use(gpu.window, normalsSource(), gpu.counters))
   {
     this->Texture = nullptr;
-    return false;
+    return gpu.fail("The gradients' shader does not compile on this GPU");
+  }
+  if (!this->Texture->Allocate3D(size.x, size.y, size.z, 4, VTK_FLOAT))
+  {
+    this->Texture = nullptr;
+    return gpu.refuse("The GPU refused a 3D texture for the gradients");
   }
   const glm::vec3 voxel = 1.0f / glm::vec3(dimensions);
   program.set("scalars", scalars);

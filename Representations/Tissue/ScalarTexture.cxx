@@ -144,7 +144,8 @@ bool ScalarTexture::update(
 {
   const unsigned long long time = scalars->GetMTime();
   const bool isSame = this->Uploaded == scalars && this->UploadedTime == time &&
-    this->UploadedComponent == component && this->UploadedPerTexel == layout.perTexel;
+    this->UploadedComponent == component && this->UploadedPerTexel == layout.perTexel &&
+    (this->UploadedLabels == labels || layout.isWhole());
   if (this->Texture && isSame)
   {
     return true;
@@ -159,6 +160,7 @@ bool ScalarTexture::update(
   this->UploadedTime = time;
   this->UploadedComponent = component;
   this->UploadedPerTexel = layout.perTexel;
+  this->UploadedLabels = labels;
   this->Refusal = textureProblem(gpu.window, layout.dimensions);
   if (this->Refusal.empty() && !this->upload(gpu, { scalars, layout, component, labels }))
   {

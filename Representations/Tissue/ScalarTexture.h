@@ -84,6 +84,7 @@ private:
   unsigned long long UploadedTime = 0;
   int UploadedComponent = 0;
   glm::ivec3 UploadedPerTexel{ 0 };
+  bool UploadedLabels = false;
   std::string Refusal; // of the same array; empty: none
   int RefusedAt = 0;   // textures that were given back before
   BrickRanges Ranges;

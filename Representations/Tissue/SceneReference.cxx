@@ -37,8 +37,7 @@ StoredScalar valueFromReference(
     const double* ends = own.property->GetRGBTransferFunction()->GetRange();
     return fromRangeToRange(range, { ends[0], ends[1] });
   }
-  const int component = drawnComponents(own.property, own.values.scalars).scalar;
-  return usualMapping(rangeOf(reference, 0), rangeOf(own.values.scalars, component));
+  return usualMapping(rangeOf(reference, 0), own.range);
 }
 
 SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, const glm::dvec2& range)

@@ -254,8 +254,7 @@ bool TissueTextures::updateGradients(
   if (!this->Normals.update(
         gpu, scalars, request.values.layout.dimensions, half, this->Scalars.difference()))
   {
-    return gpu.refuse(
-      "The gradients' shader does not compile or their texture cannot be made on this GPU");
+    return false;
   }
   tissue.normals = this->Normals.texture();
   return true;

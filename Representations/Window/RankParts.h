@@ -32,8 +32,9 @@ struct WholeVolume
   Extent extent{ 0, -1, 0, -1, 0, -1 };
 };
 
-/// Least and greatest value of each component of the whole volume's arrays, by the array's name.
-using WholeRanges = std::map<std::string, std::vector<std::array<double, 2>>>;
+/// Least and greatest value of each component of the whole volume's arrays, and last of their
+/// magnitude. By whether the array is of cells, and its name.
+using WholeRanges = std::map<std::pair<bool, std::string>, std::vector<std::array<double, 2>>>;
 
 /// What one rank draws of the deformed frame.
 struct DrawnPart

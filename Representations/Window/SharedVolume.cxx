@@ -323,7 +323,7 @@ struct Transfer
   }
 };
 
-// The range of each component of all values, finite ones alone.
+// The range of each component of all values and of their magnitude, finite ones alone.
 WholeRanges rangesOf(
   vtkMultiProcessController* ranks, vtkImageData* part, const std::vector<Exchanged>& arrays)
 {
@@ -331,12 +331,13 @@ WholeRanges rangesOf(
   for (const Exchanged& array : arrays)
   {
     vtkDataArray* values = ownValues(part, array);
-    for (int component = 0; component < array.components; ++component)
+    constexpr int magnitude = -1; // as VTK numbers it
+    for (int component = 0; component <= array.components; ++component)
     {
       double range[2] = { 1e300, -1e300 };
       if (values)
       {
-        values->GetFiniteRange(range, component);
+        values->GetFiniteRange(range, component < array.components ? component : magnitude);
       }
       own.push_back(-range[0]);
       own.push_back(range[1]);
@@ -348,13 +349,13 @@ WholeRanges rangesOf(
   auto range = all.begin();
   for (const Exchanged& array : arrays)
   {
-    std::vector<std::array<double, 2>> components(array.components);
+    std::vector<std::array<double, 2>> components(array.components + 1);
     for (std::array<double, 2>& component : components)
     {
       component = { -range[0], range[1] };
       range += 2;
     }
-    ranges.emplace(array.name, components); // points come first
+    ranges[{ array.ofCells, array.name }] = components;
   }
   return ranges;
 }

@@ -141,6 +141,22 @@ def test_a_large_volume_is_drawn_coarser_and_in_its_place():
         assert off[0] < 1e-5 and off[1] > 1e-3, off
 
 
+def test_the_next_pictures_under_a_limit_repeat_nothing():
+    source, _ = large(False)
+    view, display = bent_and_shown(source, False, True)
+    total, each = need_of(view, display)
+    display.MemoryLimit = total - each["corrections of it"] - 0.5
+    first = picture(view)
+    before = brainshift.counters(display)
+    assert numpy.array_equal(picture(view), first)
+    after = brainshift.counters(display)
+    for name in ("volumeUploads", "presenceUpdates", "correctionBytes", "bytesUploaded"):
+        assert after[name] == before[name], (name, before[name], after[name])
+    display.MemoryLimit = 0.0  # as soon as there is memory again
+    picture(view)
+    assert brainshift.gpu(display)["gpuVoxelsPerTexel"] == 1
+
+
 def test_images_hold_what_can_be_seen():
     """Where the volume is a small part of the picture: same picture, same picks, less memory."""
     size = 400

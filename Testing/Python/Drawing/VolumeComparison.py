@@ -424,4 +424,24 @@ def test_cropping_cuts_both():
     Delete(view)
 
 
+def test_a_reference_that_the_card_refuses_is_left_out():
+    """A long one: cards take 2048 to 16384 values along an axis. The volume stays bent and whole,
+    also once the reference is one that fits again."""
+    own = FreeFormDeformation(Input=volume(ball()), Strokes=STROKE)
+    long = volume(numpy.ones((2, 2, 40000), numpy.float32), spacing=(0.001, 1.0, 1.0))
+    compare = CompareVolumes(Input=own, Reference=long)
+    view = new_view()
+    alone = drawn(own)
+    with messages() as said:
+        for choice in ("Both", "Reference", "Both"):
+            compare.Show = choice
+            assert numpy.array_equal(drawn(compare, view=view), alone), choice
+    assert_says(said.text, "40000 voxels along one axis", "The reference is not drawn")
+    assert "software" not in said.text, said.text
+    compare.Reference = volume(ball())
+    with messages() as said:
+        assert not numpy.array_equal(drawn(compare, view=view), alone)
+    assert "MiB" not in said.text and "refused" not in said.text, said.text
+
+
 run_tests(globals())
