@@ -419,6 +419,10 @@ std::string vtkWholeVolumeRepresentation::TakeExtents(const Group& group, bool d
     taken[i].part.ranges = group[i]->Shared->ranges();
     group[i]->SetDrawnPart(drawsParts ? &taken[i].part : nullptr);
     group[i]->Drawn = taken[i].voxels;
+    if (drawsParts)
+    {
+      group[i]->Reported.clear(); // the same is new when it comes again
+    }
     group[i]->Draw(taken[i].voxels);
   }
   return {};

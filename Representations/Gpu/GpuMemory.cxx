@@ -155,7 +155,7 @@ std::string textureProblem(vtkOpenGLRenderWindow* window, const glm::ivec3& texe
   const int longest = std::max({ texels.x, texels.y, texels.z });
   if (longest > limit)
   {
-    return "The volume has " + std::to_string(longest) +
+    return "There are " + std::to_string(longest) +
       " voxels along one axis; the GPU takes at most " + std::to_string(limit);
   }
   glTexImage3D(

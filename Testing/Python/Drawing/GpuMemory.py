@@ -8,10 +8,10 @@ import re
 import numpy
 from brainshift_testing import (assert_says, load_plugin, mean_difference, messages, object_pixels,
                                 picture, run_tests, show_volume, use_headlight, view_along, volume)
-from paraview.simple import FreeFormDeformation
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from paraview.simple import FreeFormDeformation  # noqa: E402
 from stock_testing import COLORS, MIDDLE, OPACITIES, bend, smooth  # noqa: E402
 
 
