@@ -79,6 +79,10 @@ T between(const T* corner, const std::array<Along, 3>& axes, const std::array<st
       weight *= isNext ? fraction : 1.0 - fraction;
       offset += isNext ? along.step : 0;
     }
+    if (weight == 1.0)
+    {
+      return corner[offset]; // a double does not hold every whole number of 8 bytes
+    }
     sum += weight > 0.0 ? weight * static_cast<double>(corner[offset]) : 0.0; // not NaN * 0
   }
   return static_cast<T>(std::is_floating_point_v<T> ? sum : std::round(sum));

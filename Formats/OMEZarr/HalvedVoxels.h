@@ -15,7 +15,7 @@ namespace brainshift
 {
 using Size3 = glm::vec<3, std::int64_t>;
 
-/** A box of numbers in memory, which somebody else owns. */
+/** A box of numbers in memory. It does not own them. */
 struct VoxelBox
 {
   const char* first = nullptr; ///< the number at 0, 0, 0

@@ -372,7 +372,19 @@ void readLabels(const Json& said, OMEImage& image)
 
 // ---- What BrainShift's writer adds
 
-void readOwn(const Json& own, OMEImage& image)
+// The writer names them, and it writes every chunk.
+void readBricks(const Json& names, const std::string& path, OMEImage& image)
+{
+  for (std::size_t i = 0; names.is_array() && i < std::min(names.size(), image.levels.size()); ++i)
+  {
+    const std::string name = textIn(names[i]);
+    requireInside(name);
+    image.levels[i].bricks = keyIn(path, name);
+    image.levels[i].array.hasAllChunks = true;
+  }
+}
+
+void readOwn(const Json& own, const std::string& path, OMEImage& image)
 {
   constexpr std::size_t Axes = 3;
   const Json& world = memberOf(own, "world");
@@ -380,6 +392,7 @@ void readOwn(const Json& own, OMEImage& image)
       ? ""
       : "names the world " + shownJson(world) + "; BrainShift reads RAS");
   image.knowsSides = !world.is_null();
+  readBricks(memberOf(own, "bricks"), path, image);
   const Json& rows = memberOf(own, "direction");
   if (rows.is_null())
   {
@@ -465,7 +478,8 @@ OMEImage readOMEImage(const ZarrStore& store, const OMEChoice& choice)
   const int type = image.levels.front().array.type.vtkType;
   image.isLabelMap = !labels.is_null() && type != VTK_FLOAT && type != VTK_DOUBLE;
   readLabels(labels, image);
-  withBeginning("has own metadata of BrainShift that ", [&] { readOwn(group.own, image); });
+  withBeginning(
+    "has own metadata of BrainShift that ", [&] { readOwn(group.own, choice.path, image); });
   return image;
 }
 }

@@ -28,6 +28,7 @@ struct OMELevel
   ZarrArray array;
   std::vector<double> scale;       ///< along each axis of the array
   std::vector<double> translation; ///< of the middle of the first voxel
+  std::string bricks; ///< the array of BrainShift's writer (PyramidPlan.h); empty: not known
 };
 
 /** The axes of an image: places in its arrays. */

@@ -157,25 +157,97 @@ private:
     const std::vector<ZarrDamage>& damages, const Progress& progress, StoredVoxels& voxels) const
   {
     std::set<std::size_t> levels;
+    std::set<std::string> reasons;
     for (const ZarrDamage& damage : damages)
     {
       if (!progress(1.0))
       {
         return false;
       }
-      levels.insert(fillFromCoarser(*this->Store, this->Image, this->Level, damage));
-    }
-    if (!damages.empty())
-    {
-      std::string list;
-      for (const std::size_t level : levels)
+      if (damage.isMissing && this->fillIfEmpty(damage))
       {
-        list += (list.empty() ? "" : ", ") + std::to_string(level);
+        continue;
       }
+      levels.insert(fillFromCoarser(*this->Store, this->Image, this->Level, damage));
+      reasons.insert(damage.reason);
+    }
+    if (!reasons.empty())
+    {
       voxels.warning = "cannot be read everywhere at level " + std::to_string(this->Level) + ": " +
-        damages.front().reason + "; voxels of level " + list + " are shown there";
+        *reasons.begin() +
+        (reasons.size() > 1 ? ", the first of " + std::to_string(reasons.size()) + " chunks" : "") +
+        this->replacedBy(levels);
     }
     return true;
+  }
+
+  // The end of a sentence on the levels that are shown in place of this one.
+  std::string replacedBy(const std::set<std::size_t>& levels) const
+  {
+    std::string list;
+    std::string places;
+    for (const std::size_t level : levels)
+    {
+      list += (list.empty() ? "" : ", ") + std::to_string(level);
+      const double shiftMm =
+        this->shiftMm(this->Image.levels[level], this->Image.levels[this->Level]);
+      if (shiftMm > 0.0)
+      {
+        places += "; level " + std::to_string(level) + " has no translation against level " +
+          std::to_string(this->Level) + ": if it was made by averages, its voxels are up to " +
+          roundedText(shiftMm) + " mm from their place";
+      }
+    }
+    return "; voxels of level " + list + " are shown there" + places;
+  }
+
+  // Writers such as zarr-python leave out chunks of fill values, also when they copy a store. If
+  // the bricks say that the chunk is one, fills it. False: it has other numbers, or none are known.
+  bool fillIfEmpty(const ZarrDamage& damage) const
+  {
+    const OMELevel& level = this->Image.levels[this->Level];
+    std::array<double, 2> range{ 0.0, 1.0 };
+    const std::string problem = problemOf([&] {
+      const ZarrArray bricks = readZarrArray(*this->Store, level.bricks);
+      ZarrBox box{ damage.part.first, std::vector<std::int64_t>(damage.part.first.size(), 1),
+        reinterpret_cast<char*>(range.data()),
+        std::vector<std::int64_t>(damage.part.first.size(), 0) };
+      box.first.push_back(0);
+      box.count.push_back(2);
+      box.steps.push_back(1);
+      bool isInside = bricks.type.vtkType == VTK_DOUBLE && bricks.shape.size() == box.first.size();
+      for (std::size_t axis = 0; isInside && axis < box.first.size(); ++axis)
+      {
+        box.first[axis] /= axis < level.array.chunk.size() ? level.array.chunk[axis] : 1;
+        isInside = box.first[axis] + box.count[axis] <= bricks.shape[axis];
+      }
+      throwIfAny(isInside ? "" : "has other bricks");
+      readZarrBox(*this->Store, bricks, box, [](double) { return true; });
+    });
+    if (!problem.empty() || range != std::array<double, 2>{ 0.0, 0.0 } ||
+      level.array.fill.find_first_not_of('\0') != std::string::npos)
+    {
+      return false;
+    }
+    ZarrArray array = level.array;
+    array.hasAllChunks = false;
+    return readZarrBox(*this->Store, array, damage.part, [](double) { return true; });
+  }
+
+  // By how many mm a level may be misplaced that has no translation against a finer one; 0: it has.
+  double shiftMm(const OMELevel& level, const OMELevel& finer) const
+  {
+    double mostMm = 0.0;
+    for (const int axis : this->Image.axes.space)
+    {
+      const double step =
+        std::abs(at(level.scale, axis, 1.0)) - std::abs(at(finer.scale, axis, 1.0));
+      if (at(level.translation, axis, 0.0) == at(finer.translation, axis, 0.0) && step > 0.0)
+      {
+        mostMm = std::max(mostMm, 0.5 * step * at(this->Image.axes.units, axis, 1.0));
+      }
+    }
+    return mostMm;
   }
 
   OMEChoice chosenImage() const
@@ -313,23 +385,14 @@ private:
   // What may be wrong with a level without a fault in its metadata.
   void warnOfLevel(const OMELevel& level, VolumeHeader& header) const
   {
-    const std::string missing = missingChunk(*this->Store, level.array);
+    const std::string missing =
+      level.array.hasAllChunks ? std::string() : missingChunk(*this->Store, level.array);
     if (!missing.empty())
     {
       header.warnings.push_back("seems to have no chunk of level " + std::to_string(this->Level) +
         ", such as '" + missing + "'; where one is missing, the fill value is shown");
     }
-    const OMELevel& finest = this->Image.levels.front();
-    double mostMm = 0.0;
-    for (const int axis : this->Image.axes.space)
-    {
-      const double step =
-        std::abs(at(level.scale, axis, 1.0)) - std::abs(at(finest.scale, axis, 1.0));
-      if (at(level.translation, axis, 0.0) == at(finest.translation, axis, 0.0) && step > 0.0)
-      {
-        mostMm = std::max(mostMm, 0.5 * step * at(this->Image.axes.units, axis, 1.0));
-      }
-    }
+    const double mostMm = this->shiftMm(level, this->Image.levels.front());
     if (mostMm > 0.0)
     {
       header.warnings.push_back("has no translation of level " + std::to_string(this->Level) +

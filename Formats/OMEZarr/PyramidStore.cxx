@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iomanip>
 #include <thread>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -44,6 +46,37 @@ std::string textOf(const Json& json)
   return json.dump(Indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+void removeAll(const fs::path& path)
+{
+  std::error_code error;
+  fs::remove_all(path, error);
+  throwIfAny(
+    error ? "'" + path.string() + "' cannot be removed: " + error.message() : std::string());
+}
+
+// The folders of levels, the coarsest first, whether or not those between are there.
+std::vector<fs::path> levelsIn(const fs::path& folder)
+{
+  std::error_code error;
+  std::vector<fs::path> levels;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+    entry.increment(error))
+  {
+    const std::string name = entry->path().filename().string();
+    if (name.find_first_not_of("0123456789") == std::string::npos)
+    {
+      levels.push_back(entry->path());
+    }
+  }
+  throwIfAny(error ? "its entries cannot be listed: " + error.message() : std::string());
+  std::sort(levels.rbegin(), levels.rend(), [](const fs::path& one, const fs::path& other) {
+    const std::string first = one.filename().string();
+    const std::string second = other.filename().string();
+    return std::make_pair(first.size(), first) < std::make_pair(second.size(), second);
+  });
+  return levels;
+}
+
 // Copies voxels of one channel into a chunk.
 template <typename T>
 void fill(const VoxelBox& from, const Size3& size, std::string& chunk)
@@ -63,13 +96,13 @@ void fill(const VoxelBox& from, const Size3& size, std::string& chunk)
 }
 }
 
-PyramidStore::PyramidStore(std::string folder, PyramidContent content, const std::string& identity)
+PyramidStore::PyramidStore(std::string folder, PyramidContent content)
   : Folder(std::move(folder))
   , Content(std::move(content))
   , Levels(pyramidLevels(this->Content.grid))
 {
-  this->requireRoom(identity);
-  writeEntry(this->Folder, UnfinishedMark, textOf({ { Identity, identity } }));
+  this->requireRoom();
+  writeEntry(this->Folder, UnfinishedMark, textOf({ { Identity, this->identity() } }));
   const std::string group = this->Content.isVersion3 ? "zarr.json" : ".zgroup";
   Json empty = { { "zarr_format", this->Content.isVersion3 ? 3 : 2 } };
   if (this->Content.isVersion3)
@@ -81,8 +114,22 @@ PyramidStore::PyramidStore(std::string folder, PyramidContent content, const std
   this->describeLevels();
 }
 
+// What chunks can be compared with, and what coarser levels depend on beside them.
+std::string PyramidStore::identity() const
+{
+  const PyramidContent& content = this->Content;
+  std::string facts = joined(content.type, " ", content.components, " ", content.isLabelMap,
+    content.isVersion3, content.knowsSides, " ");
+  for (const double number : boxOf(content.grid))
+  {
+    facts += joined(std::setprecision(17), number, " ");
+  }
+  const glm::ivec3& size = content.grid.dimensions;
+  return facts + joined(size.x, " ", size.y, " ", size.z);
+}
+
 // A folder is ours to change only if it is new, empty or an unfinished store.
-void PyramidStore::requireRoom(const std::string& identity) const
+void PyramidStore::requireRoom() const
 {
   std::error_code error;
   const fs::path folder(this->Folder);
@@ -100,17 +147,34 @@ void PyramidStore::requireRoom(const std::string& identity) const
     throw Problem("it exists and is not empty; choose another name, or delete it");
   }
   const std::optional<Json> mark = readJson(*openFolderStore(this->Folder), UnfinishedMark);
-  if (!identity.empty() && mark && textIn(memberOf(*mark, Identity)) == identity)
+  if (mark && textIn(memberOf(*mark, Identity)) == this->identity())
   {
     return;
   }
   for (const char* name : { ".zattrs", ".zgroup", "zarr.json", "bricks" })
   {
-    fs::remove_all(folder / name, error);
+    removeAll(folder / name);
   }
-  for (int level = 0; fs::exists(folder / std::to_string(level), error); ++level)
+  for (const fs::path& level : levelsIn(folder))
   {
-    fs::remove_all(folder / std::to_string(level), error);
+    removeAll(level);
+  }
+}
+
+void PyramidStore::removeCoarser() const
+{
+  const fs::path folder(this->Folder);
+  for (const fs::path& level : levelsIn(folder))
+  {
+    if (level.filename() != "0")
+    {
+      removeAll(level);
+    }
+  }
+  for (std::size_t i = 1; i < this->Levels.size(); ++i)
+  {
+    const PyramidFile array = pyramidArray(this->Content, this->Levels, i);
+    writeEntry(this->Folder, array.key, textOf(array.json));
   }
 }
 
@@ -122,11 +186,11 @@ void PyramidStore::describeLevels()
     const PyramidFile array = pyramidArray(this->Content, this->Levels, i);
     writeEntry(this->Folder, array.key, textOf(array.json));
     this->Arrays.push_back(readZarrArray(*this->Store, std::to_string(i)));
+    this->Arrays.back().hasAllChunks = true;
     const glm::ivec3 count = chunksOf(this->Levels[i]);
     const std::size_t chunks = channels * static_cast<std::size_t>(count.x) *
       static_cast<std::size_t>(count.y) * static_cast<std::size_t>(count.z);
     this->Ranges.emplace_back(chunks);
-    this->Known.emplace_back(chunks, char(0));
     this->All += i > 0 ? static_cast<double>(chunks) : 0.0;
   }
 }
@@ -153,25 +217,29 @@ Size3 PyramidStore::sizeOf(const Chunk& chunk) const
 }
 
 // What cannot be unpacked counts as not there, and is written again.
-bool PyramidStore::takeIfThere(const Chunk& chunk)
+std::optional<std::string> PyramidStore::numbersThere(const Chunk& chunk) const
 {
-  const std::size_t number = this->numberOf(chunk);
-  char& isKnown = this->Known[chunk.level][number];
-  if (isKnown)
-  {
-    return true;
-  }
   const ZarrArray& array = this->Arrays[chunk.level];
   const std::size_t bytes = array.chunkBytes();
+  std::optional<std::string> numbers;
   problemOf([&] {
     std::optional<std::string> packed = this->Store->read(this->keyOf(chunk), mostPacked(bytes));
     if (packed)
     {
-      const std::string numbers = unpacked(array.codecs, std::move(*packed), bytes);
-      this->note(chunk, numbers);
+      numbers = unpacked(array.codecs, std::move(*packed), bytes);
     }
   });
-  return isKnown;
+  return numbers;
+}
+
+bool PyramidStore::takeIfThere(const Chunk& chunk)
+{
+  const std::optional<std::string> numbers = this->numbersThere(chunk);
+  if (numbers)
+  {
+    this->note(chunk, *numbers);
+  }
+  return numbers.has_value();
 }
 
 void PyramidStore::note(const Chunk& chunk, const std::string& bytes)
@@ -179,7 +247,6 @@ void PyramidStore::note(const Chunk& chunk, const std::string& bytes)
   const std::size_t number = this->numberOf(chunk);
   this->Ranges[chunk.level][number] = rangeOf(this->Content.type,
     { bytes.data(), this->sizeOf(chunk), { 1, PyramidChunk, PyramidChunk * PyramidChunk } });
-  this->Known[chunk.level][number] = 1;
 }
 
 void PyramidStore::put(const Chunk& chunk, const std::string& bytes)
@@ -198,14 +265,6 @@ std::vector<PyramidStore::Chunk> PyramidStore::chunksIn(
     forEachIn(first, end, [&](const Size3& at) { chunks.push_back({ level, channel, at }); });
   }
   return chunks;
-}
-
-bool PyramidStore::isThere(const Size3& first, const Size3& size)
-{
-  const std::vector<Chunk> chunks = this->chunksIn(
-    0, first / PyramidChunk, (first + size - std::int64_t(1)) / PyramidChunk + std::int64_t(1));
-  return std::all_of(
-    chunks.begin(), chunks.end(), [this](const Chunk& chunk) { return this->takeIfThere(chunk); });
 }
 
 bool PyramidStore::write(const PyramidPiece& piece, const Going& going)
@@ -235,10 +294,6 @@ bool PyramidStore::write(const PyramidPiece& piece, const Going& going)
 
 void PyramidStore::writeChunk(const Chunk& chunk, const PyramidPiece& piece)
 {
-  if (this->takeIfThere(chunk))
-  {
-    return;
-  }
   const ZarrArray& array = this->Arrays[chunk.level];
   std::string bytes(array.chunkBytes(), '\0');
   const Size3 away = chunk.at * PyramidChunk - piece.first;
@@ -259,6 +314,19 @@ void PyramidStore::writeChunk(const Chunk& chunk, const PyramidPiece& piece)
       break;
     default:
       fill<std::uint64_t>(from, this->sizeOf(chunk), bytes);
+  }
+  if (this->numbersThere(chunk) == bytes)
+  {
+    this->note(chunk, bytes);
+    return;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(this->Writing);
+    if (this->Written == 0)
+    {
+      this->removeCoarser();
+    }
+    ++this->Written;
   }
   this->put(chunk, bytes);
 }

@@ -3,8 +3,9 @@
 /// A folder that becomes an OME-Zarr image, in parts: chunks of the finest level in any order, then
 /// the coarser levels, and last what makes it an image for readers.
 ///
-/// Until then a file, UnfinishedMark, says that it is not finished and what it is made of. A store
-/// of the same content goes on with the chunks that are there and can be unpacked.
+/// Until then a file, UnfinishedMark, says that it is not finished, and its grid and type. If these
+/// are the same again, each chunk of the finest level that has the same numbers is kept. Before
+/// another one is written, the coarser levels are removed: they are always made of those chunks.
 #ifndef BrainShift_PyramidStore_h
 #define BrainShift_PyramidStore_h
 
@@ -13,6 +14,8 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 
 namespace brainshift
 {
@@ -31,16 +34,16 @@ public:
   using Going = std::function<bool(double fraction)>;
 
   /**
-   * Makes the folder, or goes on with an unfinished one if `identity` is the same and not empty. An
-   * unfinished one of another identity is emptied first. A folder with other files is refused.
+   * Makes the folder, or continues an unfinished one of the same grid, type and kind. An unfinished
+   * one of other content is emptied first. A folder with other files is refused.
    */
-  PyramidStore(std::string folder, PyramidContent content, const std::string& identity);
+  PyramidStore(std::string folder, PyramidContent content);
 
-  /** Whether all chunks of a box of the finest level are there. It unpacks them. */
-  bool isThere(const Size3& first, const Size3& size);
-
-  /** Writes chunks that are not there. False: stopped. */
+  /** Writes chunks that are not there or have other numbers. False: stopped. */
   bool write(const PyramidPiece& piece, const Going& going);
+
+  /** Chunks of the finest level that were written, not kept. */
+  std::size_t chunksWritten() const { return this->Written; }
 
   /** Makes the coarser levels and the metadata. False: stopped. */
   bool finish(const Going& going);
@@ -62,16 +65,20 @@ private:
   std::unique_ptr<ZarrStore> Store;
   std::vector<ZarrArray> Arrays;          ///< of the levels
   std::vector<std::vector<Range>> Ranges; ///< of the chunks of each level, the channel slowest
-  std::vector<std::vector<char>> Known;   ///< whether each of them is there
   double Done = 0.0;                      ///< chunks of coarser levels that are made
   double All = 0.0;
+  std::mutex Writing; // guards Written and the removal of coarser levels
+  std::size_t Written = 0;
 
-  void requireRoom(const std::string& identity) const;
+  std::string identity() const;
+  void requireRoom() const;
   void describeLevels();
   std::size_t numberOf(const Chunk& chunk) const;
   std::string keyOf(const Chunk& chunk) const;
   Size3 sizeOf(const Chunk& chunk) const; ///< voxels of it within the level
+  std::optional<std::string> numbersThere(const Chunk& chunk) const;
   bool takeIfThere(const Chunk& chunk);
+  void removeCoarser() const;
   void note(const Chunk& chunk, const std::string& bytes);
   void put(const Chunk& chunk, const std::string& bytes);
   std::vector<Chunk> chunksIn(std::size_t level, const Size3& first, const Size3& end) const;

@@ -46,6 +46,7 @@ struct ZarrArray
   std::string prefix;     ///< before the numbers in the key of a chunk: "c" or nothing
   std::string separator;  ///< between them
   ZarrShards shards;
+  bool hasAllChunks = false; ///< its writer leaves out none: one that is missing is damage
 
   std::size_t chunkBytes() const; ///< unpacked
   bool hasShards() const { return !this->shards.shape.empty(); }

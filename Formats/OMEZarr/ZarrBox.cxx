@@ -232,6 +232,8 @@ private:
         std::max(chunk[axis] * this->Array.chunk[axis], this->Box.first[axis]);
     }
     damage.part.count = part.count;
+    damage.isMissing = this->Array.hasAllChunks && !this->Array.hasShards() &&
+      !this->Store.size(this->keyOfFile(chunk));
     damage.part.numbers += part.to * static_cast<std::int64_t>(this->Array.type.bytes);
     const std::lock_guard<std::mutex> lock(this->Noting);
     this->Damages->push_back(std::move(damage));
@@ -322,6 +324,7 @@ private:
           : this->Store.read(key, mostPacked(bytes));
         if (!packed)
         {
+          throwIfAny(this->Array.hasAllChunks ? "is missing" : "");
           Part same = part;
           same.from = 0;
           std::fill(same.fromSteps.begin(), same.fromSteps.end(), 0);

@@ -23,15 +23,17 @@ struct ZarrBox
  * if one is. */
 std::string missingChunk(const ZarrStore& store, const ZarrArray& array);
 
-/** A part of a box whose chunk is cut off or damaged. */
+/** A part of a box whose chunk is cut off or damaged, or missing where it must be. */
 struct ZarrDamage
 {
   ZarrBox part;
-  std::string reason; ///< the end of a sentence that names the chunk
+  std::string reason;     ///< the end of a sentence that names the chunk
+  bool isMissing = false; ///< from an array that has all its chunks
 };
 
 /**
- * Fills a box. A chunk that is not there has the fill value. One that is cut off or damaged is
+ * Fills a box. A chunk that is not there has the fill value, or counts as damaged if the array has
+ * all its chunks. One that is cut off or damaged is
  * added to `damages`, and its part stays as it was; without a list it throws the reason. Returns
  * false if `progress`, which receives the fraction that is done, says stop.
  */

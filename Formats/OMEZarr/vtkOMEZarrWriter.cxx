@@ -5,7 +5,6 @@
 #include "Common/ImageGrid.h"
 #include "Formats/Files/Text.h"
 #include "Formats/OMEZarr/PyramidStore.h"
-#include "Formats/OMEZarr/SourceFacts.h"
 #include "Formats/Volumes/OutgoingVolume.h"
 
 #include "vtkDataArray.h"
@@ -50,8 +49,7 @@ int depthOf(double bytesOfLayer, double limit)
   return static_cast<int>(PyramidChunk) * std::max(1, chunks);
 }
 
-// Slabs along z; where one of a chunk's depth is too large, bars along y. The one in the middle is
-// the first: the others may not be asked for.
+// Slabs along z; where one of a chunk's depth is too large, bars along y.
 std::vector<Piece> piecesOf(const int whole[6], double bytesOfVoxel, double limit)
 {
   const double row = bytesOfVoxel * (whole[1] - whole[0] + 1.0);
@@ -69,8 +67,6 @@ std::vector<Piece> piecesOf(const int whole[6], double bytesOfVoxel, double limi
         static_cast<int>(std::min<std::int64_t>(z + depth - 1, whole[5])) } });
     }
   }
-  std::rotate(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2),
-    pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2) + 1);
   return pieces;
 }
 
@@ -89,6 +85,20 @@ double bytesOfVoxel(vtkInformation* input)
   return std::max(1, components) *
     static_cast<double>(
       std::max(1, vtkDataArray::GetDataTypeSize(scalars->Get(vtkDataObject::FIELD_ARRAY_TYPE()))));
+}
+
+// What is left out of an input of several times; empty if it has one.
+std::string noteOfTimes(vtkImageData* image, vtkInformation* pipeline)
+{
+  const int times = pipeline ? pipeline->Length(SDDP::TIME_STEPS()) : 0;
+  if (times <= 1)
+  {
+    return {};
+  }
+  vtkInformation* data = image->GetInformation();
+  const bool knowsTime = data->Has(vtkDataObject::DATA_TIME_STEP()) != 0;
+  return joined("The input has ", times, " times; the store has one of them",
+    knowsTime ? joined(", at ", data->Get(vtkDataObject::DATA_TIME_STEP()), " s") : "");
 }
 
 // The grid of all voxels, of which an image has some.
@@ -234,22 +244,22 @@ bool vtkOMEZarrWriter::TakePiece()
     return ++this->Work->next < this->Work->pieces.size();
   }
   OutgoingVolume volume;
-  std::string warning;
-  takeOut(image, this->PointArray, static_cast<WorldAxes>(this->World), volume, warning);
+  this->TakeVoxels(volume);
   const Piece& piece = this->Work->pieces[this->Work->next];
   const VoxelBox box = boxOf(image, volume, piece);
   if (!this->Work->store)
   {
-    this->Begin(volume, box);
-    this->Work->warning = warning;
+    this->Begin(volume);
   }
   const int* whole = this->Work->whole.data();
   const PyramidPiece part{ piece.first() - Size3(whole[0], whole[2], whole[4]), box };
   const double pieces = static_cast<double>(this->Work->pieces.size());
   const double done = static_cast<double>(this->Work->next) / pieces;
+  const std::size_t written = this->Work->store->chunksWritten();
   this->RequireGoing(this->Work->store->write(part,
     [&](double fraction) { return this->Go(FractionOfFinest * (done + fraction / pieces)); }));
-  if (this->NextPiece())
+  this->PiecesKept += this->Work->store->chunksWritten() == written ? 1 : 0;
+  if (++this->Work->next < this->Work->pieces.size())
   {
     return true;
   }
@@ -263,8 +273,32 @@ bool vtkOMEZarrWriter::TakePiece()
   return false;
 }
 
+// What the user must know of the first piece is said at the end.
+void vtkOMEZarrWriter::TakeVoxels(OutgoingVolume& volume)
+{
+  auto* image = vtkImageData::SafeDownCast(this->GetInput());
+  std::string warning;
+  takeOut(image, this->PointArray, static_cast<WorldAxes>(this->World), volume, warning);
+  constexpr int AsTheVolumeSays = 0;
+  if (this->Labels != AsTheVolumeSays)
+  {
+    volume.isLabelMap = this->Labels == 1;
+  }
+  if (volume.isLabelMap && volume.type.kind == NumberType::Kind::Floating)
+  {
+    throw brainshift::Problem(
+      joined("The input is of the type ", volume.numbers->GetDataTypeAsString(),
+        ", and labels must be whole numbers; convert it, or set Labels to No"));
+  }
+  if (!this->Work->store)
+  {
+    const std::string time = noteOfTimes(image, this->GetInputInformation(0, 0));
+    this->Work->warning = warning + (warning.empty() || time.empty() ? "" : ". ") + time;
+  }
+}
+
 // The first piece is there, and with it the type of the numbers.
-void vtkOMEZarrWriter::Begin(const OutgoingVolume& volume, const VoxelBox& box)
+void vtkOMEZarrWriter::Begin(const OutgoingVolume& volume)
 {
   throwIfAny(this->FileName.empty() ? "The name of the store to write is missing" : "");
   auto* image = vtkImageData::SafeDownCast(this->GetInput());
@@ -283,31 +317,8 @@ void vtkOMEZarrWriter::Begin(const OutgoingVolume& volume, const VoxelBox& box)
     const char* name = volume.numbers->GetComponentName(i);
     content.channels.emplace_back(name ? name : std::to_string(i));
   }
-  const std::string source = sourceFacts(this->GetInputAlgorithm(0, 0), this->Source);
-  const std::string identity = source.empty()
-    ? std::string()
-    : source + gridFacts(content, image) + hashFacts(content.type, box);
   withBeginning("Store " + this->FileName + " cannot be written: ",
-    [&] { this->Work->store = std::make_unique<PyramidStore>(this->FileName, content, identity); });
-}
-
-// Goes on to the next piece that is not written. False: there is none.
-bool vtkOMEZarrWriter::NextPiece()
-{
-  const int* whole = this->Work->whole.data();
-  for (++this->Work->next; this->Work->next < this->Work->pieces.size(); ++this->Work->next)
-  {
-    const Piece& piece = this->Work->pieces[this->Work->next];
-    if (!this->Work->store->isThere(
-          piece.first() - Size3(whole[0], whole[2], whole[4]), piece.size()))
-    {
-      return true;
-    }
-    ++this->PiecesKept;
-    this->RequireGoing(this->Go(FractionOfFinest * static_cast<double>(this->Work->next) /
-      static_cast<double>(this->Work->pieces.size())));
-  }
-  return false;
+    [&] { this->Work->store = std::make_unique<PyramidStore>(this->FileName, content); });
 }
 
 bool vtkOMEZarrWriter::Go(double fraction)
@@ -331,5 +342,5 @@ void vtkOMEZarrWriter::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "World: " << this->World << "\n"
      << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
      << indent << "Version: " << this->Version << "\n"
-     << indent << "Source: " << this->Source << "\n";
+     << indent << "Labels: " << this->Labels << "\n";
 }

@@ -9,12 +9,12 @@
  * most frequent one. PyramidPlan.h says which axes are halved, and what our own metadata
  * hold: the direction matrix, the world's axes, and least and greatest values of the chunks.
  *
- * Input: an image whose point array is written, one time of it. Integers of 8 bytes become those of
- * 4. World is RAS: an input in LPS is turned.
+ * Input: an image whose point array is written, one time of it; a warning says so. Integers
+ * of 8 bytes become those of 4. World is RAS: an input in LPS is turned.
  *
- * A folder that is not empty is refused, unless it is a store that was not finished. If that was
- * made of the same source (its file has the same size and time, the voxels of the middle are the
- * same), its chunks are kept. After an error or a stop the folder remains, to go on with.
+ * A folder that is not empty is refused, unless it is a store that was not finished. If that has
+ * the same grid and type, the chunks of it that have the same voxels are kept. After an error or a
+ * stop the folder remains, to be continued.
  *
  * On several MPI ranks each asks for all pieces, and the first one writes.
  */
@@ -30,7 +30,6 @@
 namespace brainshift
 {
 struct OutgoingVolume;
-struct VoxelBox;
 }
 
 class VTKBRAINSHIFTFORMATS_EXPORT vtkOMEZarrWriter : public vtkWriter
@@ -78,18 +77,15 @@ public:
   ///@}
 
   ///@{
-  /**
-   * The file or folder that the voxels come from, unchanged: with it, an unfinished store is gone
-   * on with. Default: empty, the file of the input if that is one of BrainShift's readers.
-   */
-  vtkSetMacro(Source, std::string);
-  vtkGetMacro(Source, std::string);
+  /** Whether the values are labels: 0 as the volume says (default), 1 yes, 2 no. */
+  vtkSetClampMacro(Labels, int, 0, 2);
+  vtkGetMacro(Labels, int);
   ///@}
 
   /** Why the last run wrote no image: a sentence without a full stop. Empty if it wrote one. */
   vtkGetMacro(Problem, std::string);
 
-  /** Pieces of the input that the last run found written, so that it did not ask for them. */
+  /** Pieces of the input whose voxels the last run found written, all of them. */
   vtkGetMacro(PiecesKept, int);
 
 protected:
@@ -109,16 +105,16 @@ private:
 
   void AskForPiece();
   bool TakePiece();
-  void Begin(const brainshift::OutgoingVolume& volume, const brainshift::VoxelBox& box);
-  bool NextPiece();
+  void TakeVoxels(brainshift::OutgoingVolume& volume);
+  void Begin(const brainshift::OutgoingVolume& volume);
   bool Go(double fraction);
   void RequireGoing(bool goes) const;
 
   std::string FileName;
   std::string PointArray;
-  std::string Source;
   int World = 0;
   int Version = 0;
+  int Labels = 0;
   double MemoryLimit = 512.0; // MiB
   std::string Problem = "Nothing was written";
   int PiecesKept = 0;

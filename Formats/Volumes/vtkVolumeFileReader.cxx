@@ -405,7 +405,7 @@ int vtkVolumeFileReader::readHeader(vtkInformation* output)
     this->reading([this] { this->Stored->readHeader(this->FileName ? this->FileName : ""); });
   });
   this->Last.isOfHeader = false;
-  this->SaidDamage = false;
+  this->SaidDamages.clear();
   this->IsStopped = !problem.empty() && this->GetAbortExecute();
   if (this->IsStopped)
   {
@@ -482,9 +482,8 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   {
     return 0; // stopped
   }
-  if (!this->Stored->damage().empty() && !this->SaidDamage)
+  if (!this->Stored->damage().empty() && this->SaidDamages.insert(this->Stored->damage()).second)
   {
-    this->SaidDamage = true;
     brainshift::warn(this, this->Stored->damage());
   }
   attachMeaning(shown, this->Stored->header());

@@ -34,6 +34,7 @@
 
 #include <functional> // for the private part
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -197,8 +198,8 @@ private:
   int Channel = -1;
   Shown Last;
   bool IsReading = false;
-  bool SaidDamage = false; // a warning on voxels, once for each header that is read
-  bool IsStopped = false;  // the header that was read last is not what is shown
+  std::set<std::string> SaidDamages; // warnings on voxels, each once for a header that is read
+  bool IsStopped = false;            // the header that was read last is not what is shown
   const brainshift::VolumeFormat* Taken = nullptr; // of File
   brainshift::VolumeFile* File = nullptr;          // held by Stored; null: no format yet
   std::unique_ptr<brainshift::PlacedVolume> Stored;

@@ -6,12 +6,15 @@ import os
 VERSIONS = {"0.4": "0.4 (zarr 2)", "0.5": "0.5 (zarr 3)"}
 
 
-def pyramid(source, out=None, array=None, world=None, version="0.4", progress=None):
+LABELS = {None: "As The Volume Says", True: "Yes", False: "No"}
+
+
+def pyramid(source, out=None, array=None, world=None, version="0.4", progress=None, labels=None):
     """Write a volume as an OME-Zarr image, with all its levels.
 
     The volume is read and written piece by piece, so it may be larger than memory if its reader
     reads parts: OME-Zarr, and NIfTI files of one volume. If the function was stopped, call it again
-    with the same names: it goes on if the files are unchanged.
+    with the same names: the volume is read again, and what is written of the same voxels is kept.
 
     - `source`: path of a file or folder, or a ParaView source of an image.
     - `out`: folder to write, on the machine that computes. Its name ends in `.zarr`. The default,
@@ -21,8 +24,12 @@ def pyramid(source, out=None, array=None, world=None, version="0.4", progress=No
     - `world`: `"RAS"` or `"LPS"`, the world axes of the volume. The default, `None`, takes those
       that are attached to the volume. Without them the volume is written as RAS, with a warning.
     - `version`: `"0.4"` (default) or `"0.5"`, of OME-Zarr.
+    - `labels`: whether the values are labels, `True` or `False`. The default, `None`, takes what
+      the volume says. Many files of labels say nothing: their coarser levels would have means.
     - `progress`: called with the fraction that is done, 0 to 1. If it returns `False`, writing
       stops. Only where this process computes. The default, `None`, reports nothing.
+
+    Of several times one is written, the first of a file, and a warning says so.
 
     Returns the path of the folder. Each coarser level has means of up to 2 x 2 x 2 voxels, whole
     numbers rounded; of labels the most frequent, of as frequent ones the first.
@@ -37,6 +44,8 @@ def pyramid(source, out=None, array=None, world=None, version="0.4", progress=No
 
     if version not in VERSIONS:
         raise ValueError(f"version is {version!r}; it must be \"0.4\" or \"0.5\"")
+    if labels not in LABELS:
+        raise ValueError(f"labels is {labels!r}; it must be None, True or False")
     is_path = isinstance(source, (str, os.PathLike))
     if not is_path and out is None:
         raise ValueError("out is missing: it names the folder to write")
@@ -50,7 +59,7 @@ def pyramid(source, out=None, array=None, world=None, version="0.4", progress=No
     try:
         writer = servermanager.writers.OMEZarrWriter(
             Input=volume, FileName=out, PointArray=array or "", World=world,
-            Version=VERSIONS[version], Source=os.fspath(source) if is_path else "")
+            Version=VERSIONS[version], Labels=LABELS[labels])
         _watch(writer, progress)
         _write(writer, out)
     finally:

@@ -277,6 +277,7 @@ TEST(Defaults, OfVolumeFilesLiveInTheClass)
   vtkNew<vtkOMEZarrWriter> pyramids;
   const Defaults ofPyramids{ { "World", { double(pyramids->GetWorld()) } },
     { "Version", { double(pyramids->GetVersion()) } },
+    { "Labels", { double(pyramids->GetLabels()) } },
     { "MemoryLimit", { pyramids->GetMemoryLimit() } } };
   EXPECT_EQ(defaultsIn("Formats/OMEZarr/OMEZarrWriter.xml"), ofPyramids);
 }

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that chunks that are cut off or damaged are read from the coarser level, which is said
-# once, that one that is missing has the fill value, and that nothing else changes.
+# once for each of them, that one that is missing has the fill value where a writer may leave it
+# out, and that nothing else changes.
 import os
 
 import numpy
 import zarr_files
-from brainshift_testing import load_plugin, messages, output, run_tests
-from zarr_files import CHANNEL, SPACE, describe, fresh, level, numbers_of, write_array
+from brainshift_testing import load_plugin, messages, output, run_tests, volume
+from zarr_files import CHANNEL, SPACE, TIME, describe, fresh, level, numbers_of, write_array
 
 load_plugin()
-from paraview import simple  # noqa: E402 after the plugin
+from paraview import servermanager, simple  # noqa: E402 after the plugin
 
 FINE = (12, 8, 10)
 SPOILED = {"cut off": lambda content: content[:-3], "empty": lambda content: b"",
@@ -148,6 +149,56 @@ def test_whole_numbers_are_rounded():
     spoil(path, "0/1.1.1", SPOILED["empty"])
     found = numbers_of(read(path)[0])
     assert (abs(found[4:8, 4:7, 4:8] - linear(FINE, 1)[4:8, 4:7, 4:8]) <= 1.0).all()
+
+
+def test_each_time_is_reported():
+    """The first time and the third are damaged, the third in two chunks."""
+    values = numpy.stack([linear(FINE, 1) + i for i in range(3)])
+    coarse = numpy.stack([linear((6, 4, 5), 2) + i for i in range(3)])
+    path = store([values, coarse], axes=[TIME, *SPACE])
+    for key in ("0/0.1.1.1", "0/2.1.1.1", "0/2.0.0.0"):
+        spoil(path, key, SPOILED["empty"])
+    reader = simple.OMEZarrReader(FileName=path, Level=0)
+    for time, key, count in ((0, "0/0.1.1.1", ""), (1, "", ""), (2, "0/2.0.0.0", "of 2 chunks"),
+                             (0, "", "")):
+        with messages() as said:
+            reader.UpdatePipeline(time)
+        assert said.text.count("everywhere") == bool(key), (time, said.text)
+        assert key in said.text and count in said.text.replace("\n", " "), said.text
+
+
+def test_levels_without_translation():
+    path = store([linear(FINE, 1), linear((6, 4, 5), 2)])
+    describe(path, [level("0", [1] * 3), level("1", [2] * 3)], None, 2)
+    spoil(path, "0/1.1.1", SPOILED["empty"])
+    said = read(path)[1]
+    assert "level 1 has no translation" in said and "up to 0.5 mm" in said, said
+
+
+def test_labels_of_64_bits():
+    coarse = 2 ** 60 + numpy.arange(6 * 4 * 5).reshape(6, 4, 5)
+    fine = coarse.repeat(2, 0).repeat(2, 1).repeat(2, 2)
+    path = store([fine, coarse])
+    spoil(path, "0/1.1.1", SPOILED["empty"])
+    assert (numbers_of(read(path)[0]) == fine).all()
+
+
+def test_a_missing_chunk_of_our_own_store():
+    """The writer leaves out none. A copy by zarr-python has none of the fill value."""
+    values = numpy.full((70, 70, 70), 8, "int16")
+    values[:64, :64, 64:] = 0
+    for version in ("0.4 (zarr 2)", "0.5 (zarr 3)"):
+        path = fresh("own.zarr")
+        servermanager.writers.OMEZarrWriter(Input=volume(values), FileName=path,
+                                            Version=version).UpdatePipeline()
+        first = "0/0/0/" if "zarr 2" in version else "0/c/0/0/"
+        os.remove(os.path.join(path, first + "1"))
+        image, said, _ = read(path)
+        assert (numbers_of(image) == values).all() and "everywhere" not in said, said
+        os.remove(os.path.join(path, first + "0"))
+        image, said, _ = read(path)
+        assert (numbers_of(image)[:60, :60, :60] == 8).all()
+        assert f"chunk '{first}0' is missing" in said and "level 1 are shown" in said, said
 
 
 run_tests(globals())

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that written OME-Zarr images hold what was given: numbers as zarr-python reads them, levels
 # as numpy makes them, places, directions, labels, least and greatest values, and that a store that
-# was not finished is recognised and gone on with.
+# was not finished is recognised and continued.
 import json
 import os
 import shutil
@@ -14,6 +14,7 @@ from zarr_files import fresh, numbers_of
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift.roles import reader_of  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 
 ODD = (70, 65, 131)  # z, y, x: chunks at all ends are cut
@@ -176,6 +177,30 @@ def test_labels():
     assert found.GetFieldData().GetArray("IsLabelMap").GetValue(0) == 1
 
 
+def test_labels_that_the_volume_does_not_name():
+    values = numpy.random.default_rng(4).choice(numpy.array([0, 17, 53], "int16"), ODD)
+    file = scratch("aseg.nii.gz")
+    brainshift.save_volume(named(volume(values), "RAS"), file)
+    for labels in (True, None):
+        path = brainshift.pyramid(file, target(), labels=labels)
+        assert (set(array_of(path, "1").flat) == {0, 17, 53}) is bool(labels)
+    path = brainshift.pyramid(volume(values), target(), labels=True)
+    assert brainshift.pyramid(path, target("other.ome.zarr"), labels=False)
+    assert (array_of(scratch("other.ome.zarr"), "1") == mean_of(values)).all()
+    _, problem, _ = written(volume(values.astype("float32")), target(), Labels="Yes")
+    assert "whole numbers" in problem, problem
+
+
+def test_one_of_several_times():
+    import nibabel
+    values = zarr_files.values_of((3, 5, 6, 7), "int16")
+    file = scratch("times.nii")
+    nibabel.save(nibabel.Nifti1Image(values.T, numpy.eye(4)), file)
+    path, problem, said = written(reader_of(file))
+    assert problem == "" and "has 3 times; the store has one of them" in said, said
+    assert (array_of(path, "0") == values[0]).all()
+
+
 def test_channels():
     values = zarr_files.values_of((66, 5, 7, 3), "uint8")
     for version in (0, 1):
@@ -276,7 +301,7 @@ def test_an_input_that_fails():
     assert "gave no voxels" in problem, problem
 
 
-def test_stopped_and_gone_on_with():
+def test_stopped_and_continued():
     file, values = nifti()
     path = target("stopped.ome.zarr")
     reason = stopped(file, path, 2)
@@ -297,7 +322,7 @@ def test_stopped_and_gone_on_with():
 
 
 def test_another_source_begins_anew():
-    """Of the same name and size but another time, or with other voxels: nothing of it is kept."""
+    """Of the same name and size but with other voxels: nothing of it is kept."""
     file, _ = nifti()
     path = target("stopped.ome.zarr")
     assert "stopped" in stopped(file, path, 2)
@@ -306,12 +331,57 @@ def test_another_source_begins_anew():
     brainshift.pyramid(file, path)
     assert (array_of(path, "0") == values).all()
     assert all(kept(path)[name] != time for name, time in before.items())
-    path = target("unknown.ome.zarr")
-    source = volume(values)
-    assert "stopped" in stopped(source, path, 2)
-    before = kept(path)
-    good(source, path)
-    assert all(kept(path)[name] != time for name, time in before.items())
+
+
+def halted(source, path, fraction, **properties):
+    """Writes until a fraction is done."""
+    writer = servermanager.writers.OMEZarrWriter(Input=source, FileName=path, **properties)
+    own = writer.GetClientSideObject()
+    own.AddObserver("ProgressEvent", lambda *_: own.SetAbortExecute(own.GetProgress() >= fraction))
+    with messages():
+        writer.UpdatePipeline()
+    writer.SMProxy.UpdatePropertyInformation()
+    assert "was stopped" in writer.GetPropertyValue("Problem")
+
+
+def test_other_voxels_are_never_kept():
+    """The file that is named is unchanged, another one has its numbers."""
+    values = zarr_files.values_of((200, 70, 66), "int16")
+    with open(scratch("detached.mhd"), "w", encoding="utf-8") as file:
+        file.write("ObjectType = Image\nNDims = 3\nDimSize = 66 70 200\nElementType = MET_SHORT\n"
+                   "ElementDataFile = detached.raw\n")
+    path = target("detached.ome.zarr")
+    for change in (0, 1):
+        values[:60] ^= change
+        values.tofile(scratch("detached.raw"))
+        reader = reader_of(scratch("detached.mhd"))
+        if change == 0:
+            halted(reader, path, 0.4, MemoryLimit=0.0)
+            before = kept(path)
+    writer = servermanager.writers.OMEZarrWriter(Input=reader, FileName=path, MemoryLimit=0.0)
+    with messages():
+        writer.UpdatePipeline()
+    given = numbers_of(output(reader_of(scratch("detached.mhd"))))  # which is turned to RAS
+    assert (numpy.sort(given, axis=None) == numpy.sort(values, axis=None)).all()
+    assert (array_of(path, "0") == given).all()
+    assert (array_of(path, "1") == mean_of(given)).all()
+    writer.SMProxy.UpdatePropertyInformation()
+    assert writer.GetPropertyValue("PiecesKept") > 0
+    assert any(kept(path)[name] == time for name, time in before.items())
+
+
+def test_no_stale_coarser_level():
+    """Also where an earlier run was killed while it removed the levels of another volume."""
+    values = zarr_files.values_of(ODD, "int16")
+    for spacing, removed in [(s, r) for s in (1, 2) for r in (True, False)]:
+        path = target("stale.ome.zarr")
+        halted(volume(values), path, 0.9)
+        assert os.path.exists(path + "/1/0/0/0")
+        if removed:
+            shutil.rmtree(path + "/0")
+        good(volume(values[::-1], spacing=(spacing,) * 3), path)
+        assert (array_of(path, "0") == values[::-1]).all()
+        assert (array_of(path, "1") == mean_of(values[::-1])).all(), (spacing, removed)
 
 
 def test_what_is_refused():
