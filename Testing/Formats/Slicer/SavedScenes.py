@@ -188,4 +188,151 @@ def test_plain_volumes_and_wrong_names():
         raise AssertionError("another ending is not refused")
 
 
+def fresh(name):
+    """A folder with nothing in it."""
+    shutil.rmtree(scratch(name), ignore_errors=True)
+    os.makedirs(scratch(name))
+    return scratch(name)
+
+
+def contents(folder):
+    """The bytes of all files below a folder, by their paths in it."""
+    found = {}
+    for root, _, names in os.walk(folder):
+        for name in names:
+            with open(os.path.join(root, name), "rb") as file:
+                found[os.path.relpath(os.path.join(root, name), folder)] = file.read()
+    return found
+
+
+def folders(folder):
+    return sorted(name for name in os.listdir(folder) if os.path.isdir(os.path.join(folder, name)))
+
+
+def head_in(folder, name):
+    path = os.path.join(folder, name)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    return slicer.write_nrrd(path, ball(21, 7).astype(numpy.int16), (-40, -40, -40),
+                             numpy.eye(3) * 4.0)
+
+
+def bent_file(path):
+    head = simple.NRRDVolumeReader(FileName=path)
+    return simple.FreeFormDeformation(Input=head, Strokes=brainshift.move((0, 0, 0), (4, 0, 0)))
+
+
+def test_files_that_were_there_stay():
+    folder = fresh("kept files")
+    bent = bent_file(head_in(folder, "p-data/T1.nrrd"))
+    head_in(folder, "p-data/T1 hardened.nrrd")
+    before = contents(folder)
+    brainshift.save_scene(os.path.join(folder, "p.mrml"), bent)
+    assert before.items() <= contents(folder).items()
+    simple.Delete(bent.Input)
+    brainshift.save_scene(os.path.join(folder, "q.mrml"), bent)
+    assert before.items() <= contents(folder).items()
+
+
+def test_a_second_save_takes_the_place_of_the_first():
+    folder = fresh("twice")
+    bent = bent_file(head_in(folder, "T1.nrrd"))
+    path = os.path.join(folder, "p.mrml")
+    for _ in range(3):
+        brainshift.save_scene(path, bent)
+    last, = folders(folder)
+    root, by_id = nodes_of(path)
+    for node in root:
+        if node.tag in ("Volume", "GridTransform"):
+            assert os.path.dirname(file_of(folder, node, by_id)) == os.path.join(folder, last)
+    with open(os.path.join(folder, last, "T1.nrrd"), "ab") as file:
+        file.write(b"by another program")
+    brainshift.save_scene(path, bent)
+    assert last in folders(folder) and len(folders(folder)) == 2
+
+
+def test_a_scene_that_is_saved_onto_itself_keeps_what_its_sources_read():
+    folder = fresh("onto itself")
+    path = os.path.join(folder, "scene.mrml")
+    brainshift.save_scene(path, bent_file(head_in(folder, "T1.nrrd")))
+    scene = xml.etree.ElementTree.parse(path)
+    turn = scene.getroot().makeelement("LinearTransform", {
+        "id": "turn", "name": "turn",
+        "matrixTransformToParent": slicer.numbers(slicer.TURN)})
+    scene.getroot().append(turn)
+    grid = next(node for node in scene.getroot() if node.tag == "GridTransform")
+    grid.set("references", grid.get("references") + "transform:turn;")
+    scene.write(path, encoding="utf-8", xml_declaration=True)
+    found = brainshift.open_scene(path)
+    bent = found.volumes["T1"]
+    bent.Strokes = brainshift.move((0, 0, 30), (0, 3, 0))
+    before, points = contents(folder), REST / 2
+    right = brainshift.deformed_from_rest(bent, points)
+    brainshift.save_scene(path, list(found.volumes.values()))
+    after = contents(folder)
+    assert all(after[name] == before[name] for name in before if name != "scene.mrml")
+    again = brainshift.open_scene(path, folder=fresh("opened again")).volumes
+    there = next(each for name, each in again.items() if each.SMProxy.GetXMLName() ==
+                 "FreeFormDeformation")
+    away = brainshift.deformed_from_rest(there, points) - right
+    assert numpy.linalg.norm(away, axis=1).max() < 0.15, away
+
+
+def test_a_scene_that_is_refused_leaves_the_former_one():
+    folder = fresh("refused")
+    bent = bent_file(head_in(folder, "T1.nrrd"))
+    path = os.path.join(folder, "p.mrml")
+    brainshift.save_scene(path, bent)
+    before = contents(folder)
+    bent.Strokes = brainshift.move((0, 0, 0), (0, 6, 0))
+    try:
+        brainshift.save_scene(path, bent, segmentations=volume(ball(9, 3) - 1.0))
+    except ValueError as problem:
+        assert "values from -1.0" in str(problem), problem
+    else:
+        raise AssertionError("labels below 0 are not refused")
+    assert contents(folder) == before
+    assert len(folders(folder)) == 1
+
+
+
+def parents_of(path):
+    """Of each markup of a scene: the tag of what is above it, or None."""
+    root, by_id = nodes_of(path)
+    above = {node.get("name"): refers(node, "transform") for node in root
+             if node.tag == "MarkupsFiducial"}
+    return {name: by_id[parent].tag if parent else None for name, parent in above.items()}
+
+
+def test_points_that_are_moved_are_below_nothing():
+    folder = fresh("moved points")
+    bent = bent_file(head_in(folder, "T1.nrrd"))
+    scene = slicer.Written("points to move")
+    scene.landmarks("Marks", REST)
+    rest = simple.LandmarkReader(FileName=scene.path("Marks.mrk.json"))
+    moved = simple.DeformGeometry(registrationName="moved", Input=rest, Deformation=bent)
+    behind = simple.Elevation(registrationName="behind", Input=moved)
+    back = simple.DeformGeometry(registrationName="back", Input=moved, Deformation=bent,
+                                 Direction="Backward")
+    hand = shutil.copy(scene.path("Marks.mrk.json"), scene.path("hand.mrk.json"))
+    path = os.path.join(folder, "p.mrml")
+    brainshift.save_scene(path, bent, points=[rest, moved, behind, back],
+                          moved_points=hand)
+    assert parents_of(path) == {"Marks": "GridTransform", "moved": None, "behind": None,
+                                "back": "GridTransform",
+                                "hand": None}, parents_of(path)
+
+
+def test_points_of_a_scene_are_at_rest_where_they_only_turned():
+    folder = fresh("scene points")
+    scene = slicer.Written("points of a scene")
+    for name, matrix in (("turned", slicer.TURN), ("mirrored", numpy.diag((-1.0, 1, 1, 1))),
+                         ("stretched", slicer.STRETCH)):
+        scene.landmarks(name, REST, scene.linear("T " + name, matrix).replace(" ", "_"))
+    found = brainshift.open_scene(scene.written()).points
+    path = os.path.join(folder, "p.mrml")
+    brainshift.save_scene(path, bent_file(head_in(folder, "T1.nrrd")), points=list(found.values()))
+    assert parents_of(path) == {"turned": "GridTransform", "mirrored": "GridTransform",
+                                "stretched": None}, parents_of(path)
+
+
 run_tests(globals())
