@@ -152,7 +152,8 @@ class _Saving:
         """The grid transform of a Free-Form Deformation: the map from the parent, as Slicer
         keeps transforms in files."""
         inside, path = self.file(f"{name} deformation", ".nrrd")
-        save_field(bent, path, "Backward", [spacing] * 3 if spacing else None)
+        save_field(bent, path, "Backward", [spacing] * 3 if spacing else None,
+                   world_axes(bent.Input) or "RAS")
         return self.stored((("GridTransform", "GridTransform"),
                             ("TransformStorage", "TransformStorage")),
                            f"{name} deformation", inside, None)
