@@ -20,7 +20,6 @@ constexpr DICOMTag Rows = 0x00280010;
 constexpr DICOMTag Columns = 0x00280011;
 constexpr DICOMTag AcquisitionMatrix = 0x00181310;
 
-constexpr DICOMTag NumberOfFrames = 0x00280008;
 constexpr DICOMTag SpacingBetweenSlices = 0x00180088;
 constexpr const char* WayOut = ". Convert the scanner's files with dcm2niix";
 
@@ -59,14 +58,14 @@ std::vector<double> numbersInHeader(const std::string& header, const std::string
   constexpr std::size_t TextAt = 16;
   constexpr std::int32_t LongestText = 64;
   constexpr std::int32_t MostValues = 3;
-  const std::size_t place = header.find(name + std::string(1, 0));
+  const std::size_t begin = header.find(name + std::string(1, 0));
   std::vector<double> numbers;
-  if (place == std::string::npos)
+  if (begin == std::string::npos)
   {
     return numbers;
   }
-  const auto count = storedNumberAt<std::int32_t>(header, place + CountAt, false);
-  std::size_t item = place + ItemsAt;
+  const auto count = storedNumberAt<std::int32_t>(header, begin + CountAt, false);
+  std::size_t item = begin + ItemsAt;
   for (std::int32_t i = 0; count && i < std::min(*count, MostValues); ++i)
   {
     const auto length = storedNumberAt<std::int32_t>(header, item + LengthAt, false);
@@ -119,7 +118,7 @@ bool hasRoomFor(double slices, const DICOMDataSet& set)
 }
 
 // The end of a sentence if an image of Siemens is so much larger than what was measured that it may
-// be a mosaic, although nothing in it says so, as after private attributes were removed.
+// be a mosaic, although no attribute names it one, as after private attributes were removed.
 std::string noteOfMosaic(const DICOMDataSet& set)
 {
   constexpr int FewestTiles = 3; // along a side; scanners interpolate to twice as many pixels
@@ -206,7 +205,7 @@ int tilesAlong(double slices, const DICOMFile& file)
   return tiles;
 }
 
-// What else a picture needs so that its tiles have a place.
+// Throws the end of a sentence for what else a picture needs so that its tiles have positions.
 void requireTiles(const DICOMDataSet& set, const DICOMFile& file, double slices)
 {
   const std::vector<double> inHeader = numbersInHeader(imageHeader(set), "NumberOfImagesInMosaic");
@@ -216,7 +215,7 @@ void requireTiles(const DICOMDataSet& set, const DICOMFile& file, double slices)
       " slices by the private attribute (0019,xx0a) and of ", inHeader.front(),
       " by NumberOfImagesInMosaic in (0029,xx10); they must be the same", WayOut));
   }
-  if (file.frames.size() != 1 || set.elements.count(NumberOfFrames) > 0)
+  if (file.frames.size() != 1)
   {
     throw Problem(
       joined("has ", file.frames.size(), " frames that are mosaics; a file has one", WayOut));

@@ -3,7 +3,8 @@
 /// Volumes in MINC1 files (.mnc), through the netCDF that ParaView brings.
 ///
 /// Their world is RAS, in mm. Whole numbers become real values, slice by slice, as the file says:
-/// the ends of valid_range stand for image-min and image-max, and what is outside counts as an end.
+/// the ends of valid_range are image-min and image-max, and what is outside counts as an end.
+#include "Common/Bytes.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/MINC/MINCAxis.h"
@@ -156,8 +157,39 @@ double bytesOfAttributes(int file, int variable)
   return bytes;
 }
 
+// The data of a variable, as the header has them.
+struct StoredData
+{
+  double offsetEnd = 0.0; // of the number in the header that says where the data begin, bytes
+  double size = 0.0;      // bytes
+};
+
+// Where the last data end, bytes. They may be in any order, and a gap may be before them.
+double endOfData(const std::string& header, const std::vector<StoredData>& data, bool isLarge)
+{
+  double end = static_cast<double>(header.size());
+  for (const StoredData& one : data)
+  {
+    const auto at = static_cast<std::size_t>(one.offsetEnd) - (isLarge ? 8 : 4);
+    const auto large = storedNumberAt<std::uint64_t>(header, at, true);
+    const auto small = storedNumberAt<std::uint32_t>(header, at, true);
+    if (isLarge ? !large : !small)
+    {
+      throw Problem(joined("ends within its header, after ", header.size(), " bytes"));
+    }
+    const double begin = isLarge ? static_cast<double>(*large) : static_cast<double>(*small);
+    if (begin < static_cast<double>(header.size()))
+    {
+      throw Problem(joined("is damaged: data begin at byte ", begin, ", within its header of ",
+        header.size(), " bytes"));
+    }
+    end = std::max(end, begin + one.size);
+  }
+  return end;
+}
+
 // Bytes that a file has, by its header: netCDF would give zeros for those behind its end.
-double bytesOf(int file, double bytesOfOffset)
+double bytesOf(const std::string& fileName, int file, bool isLarge)
 {
   int dimensions = 0;
   int variables = 0;
@@ -178,30 +210,30 @@ double bytesOf(int file, double bytesOfOffset)
     sides.push_back(static_cast<double>(side));
     bytes += 8.0 + padded(static_cast<double>(name.size()));
   }
-  double last = 0.0;
+  std::vector<StoredData> data;
   for (int i = 0; i < variables; ++i)
   {
     nc_type type = NC_NAT;
     const std::string name =
       nameBy([&](char* to) { return nc_inq_var(file, i, to, &type, nullptr, nullptr, nullptr); },
         "a variable");
-    last = bytesOfNumber(file, type);
+    double size = bytesOfNumber(file, type);
     const std::vector<int> axes = dimensionsOf(file, i);
     for (const int axis : axes)
     {
-      last *= sides.at(static_cast<std::size_t>(axis));
+      size *= sides.at(static_cast<std::size_t>(axis));
     }
     bytes += 16.0 + padded(static_cast<double>(name.size())) +
-      4.0 * static_cast<double>(axes.size()) + bytesOfAttributes(file, i) + bytesOfOffset +
-      padded(last);
+      4.0 * static_cast<double>(axes.size()) + bytesOfAttributes(file, i) + (isLarge ? 8.0 : 4.0);
+    data.push_back({ bytes, size });
   }
-  return bytes - padded(last) + last;
+  return endOfData(readBeginning(fileName, static_cast<std::size_t>(bytes)), data, isLarge);
 }
 
 void requireWhole(const std::string& fileName, int file)
 {
   const bool isLarge = readBeginning(fileName, 4) == "CDF\x02";
-  const double need = bytesOf(file, isLarge ? 8.0 : 4.0);
+  const double need = bytesOf(fileName, file, isLarge);
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(fileName, error);
   if (error || static_cast<double>(size) < need)
@@ -263,7 +295,7 @@ MINCAxis axisOf(int file, int dimension, std::vector<std::string>& warnings)
   {
     if (isSpace)
     {
-      throw Problem("has no variable " + axis.name + ", which gives the place of its voxels");
+      throw Problem("has no variable " + axis.name + ", which gives the positions of its voxels");
     }
     return axis;
   }
@@ -343,7 +375,7 @@ StoredType typeOf(int file, int image)
   return stored;
 }
 
-// The stored numbers that stand for image-min and image-max.
+// The stored numbers whose real values are image-min and image-max.
 void readStoredRange(int file, int image, const StoredType& stored, Ranges& ranges)
 {
   double least = 0.0;

@@ -71,7 +71,7 @@ void makeEven(MINCAxis& axis, double mm, std::vector<std::string>& warnings)
   {
     warnings.push_back(
       joined("has an uneven spacing along ", axis.name, "; it is shown with the even spacing ",
-        mm * axis.step, " mm, up to ", mm * largest, " mm from its place"));
+        mm * axis.step, " mm, up to ", mm * largest, " mm from its positions"));
   }
 }
 
@@ -105,12 +105,16 @@ void makeUnit(MINCAxis& axis, std::vector<std::string>& warnings)
 {
   constexpr double Rounding = 1e-3; // of cosines with few digits
   const double length = glm::length(axis.cosines);
-  if (length > 0.0 && std::isfinite(length) && std::abs(length - 1.0) > Rounding)
+  if (!(length > 0.0) || !std::isfinite(length))
+  {
+    return; // refused with the matrix
+  }
+  if (std::abs(length - 1.0) > Rounding)
   {
     warnings.push_back(joined(
       "has direction_cosines along ", axis.name, " that are ", length, " long, which count as 1"));
-    axis.cosines /= length;
   }
+  axis.cosines /= length;
 }
 
 // Places voxels along the column `along` of the matrix.

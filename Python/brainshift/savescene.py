@@ -2,15 +2,16 @@
 """Saves a bent volume as a scene of 3D Slicer."""
 
 import gzip
+import json
 import os
 import re
 import shutil
 import tempfile
 from xml.sax.saxutils import quoteattr
 
-from .casesources import stem
+from .casesources import inputs_of, sources, stem
 from .files import _write, save_field, save_volume
-from .mrb import pack
+from .mrb import MARK, pack
 from .mrml import encoded
 from .views import world_axes
 
@@ -26,6 +27,9 @@ _MOST_SEGMENTS = 10_000
 #: Types of labels in NRRD files.
 _TYPES = {"u1": "uint8", "<u2": "uint16", "<u4": "uint32"}
 
+#: What axes of a rigid transform may miss length 1 and right angles by, as in open_scene.
+_RIGID = 1e-5
+
 #: Colours of segments that have none.
 _COLORS = ((1, 0.6, 0.2), (0.3, 0.7, 1), (0.4, 0.85, 0.4), (0.9, 0.4, 0.7), (0.9, 0.9, 0.3))
 
@@ -35,12 +39,67 @@ def _name(source):
     return stem(source).removesuffix(".seg")
 
 
-def _sources(given):
+def _list(given):
     return list(given) if isinstance(given, (list, tuple)) else [given]
 
 
 def _kind(source):
     return source.SMProxy.GetXMLName()
+
+
+def _texts_of(proxy):
+    """The texts that the properties of a proxy hold; those that name files are among them."""
+    iterator = proxy.NewPropertyIterator()
+    iterator.UnRegister(None)
+    iterator.Begin()
+    while not iterator.IsAtEnd():
+        texts = iterator.GetProperty()
+        if texts.IsA("vtkSMStringVectorProperty"):
+            yield from (texts.GetElement(i) or "" for i in range(texts.GetNumberOfElements()))
+        iterator.Next()
+
+
+def _is_read(folder, given):
+    """Whether a source of the pipeline, or one of those given, reads a file in a folder."""
+    inside = os.path.realpath(folder)
+    proxies = {}
+    for source in [*sources(), *given]:
+        proxies.update(inputs_of(source))
+    paths = {os.path.realpath(text) for proxy in proxies.values() for text in _texts_of(proxy)
+             if os.path.isabs(text) or os.path.exists(text)}
+    return any(path == inside or path.startswith(inside + os.sep) for path in paths)
+
+
+def _files_in(folder):
+    """Of each file in a folder: its size (bytes) and when it was written (ns)."""
+    found = {}
+    for name in os.listdir(folder):
+        if name != MARK:
+            known = os.stat(os.path.join(folder, name))
+            found[name] = [known.st_size, known.st_mtime_ns]
+    return found
+
+
+def _mark(folder, scene):
+    """Notes in a folder which scene has its files, and what they are."""
+    with open(os.path.join(folder, MARK), "w", encoding="utf-8") as file:
+        json.dump([os.path.basename(scene), _files_in(folder)], file)
+
+
+def _is_own(folder, scene):
+    """Whether a folder holds only files that were saved for a scene, as they were written."""
+    try:
+        with open(os.path.join(folder, MARK), encoding="utf-8") as file:
+            return json.load(file) == [os.path.basename(scene), _files_in(folder)]
+    except (OSError, ValueError):
+        return False
+
+
+def _data_folders(folder, name):
+    """The paths in a folder that have a name or that name with a number, by numbers from 1 on."""
+    numbered = re.compile(re.escape(name) + "(?: ([1-9][0-9]{0,8}))?")
+    found = ((each, numbered.fullmatch(each)) for each in os.listdir(folder))
+    return {int(match[1] or 1): os.path.join(folder, each) for each, match in found if match}
 
 
 class _Saving:
@@ -49,7 +108,7 @@ class _Saving:
     def __init__(self, folder, data):
         self.folder, self.data = folder, data
         self.lines, self.counts, self.taken = [], {}, set()
-        os.makedirs(os.path.join(folder, data), exist_ok=True)
+        os.makedirs(os.path.join(folder, data))  # a new one, so that no file is overwritten
 
     def node(self, kind, of_class, **attributes):
         """Adds a node; its identifier is that of Slicer's class with a number."""
@@ -90,10 +149,11 @@ class _Saving:
                            name, inside, above, display)
 
     def deformation(self, bent, name, spacing):
-        """The grid transform of a Free-Form Deformation: the way from the parent, as Slicer keeps
-        transforms in files."""
+        """The grid transform of a Free-Form Deformation: the map from the parent, as Slicer
+        keeps transforms in files."""
         inside, path = self.file(f"{name} deformation", ".nrrd")
-        save_field(bent, path, "Backward", [spacing] * 3 if spacing else None)
+        save_field(bent, path, "Backward", [spacing] * 3 if spacing else None,
+                   world_axes(bent.Input) or "RAS")
         return self.stored((("GridTransform", "GridTransform"),
                             ("TransformStorage", "TransformStorage")),
                            f"{name} deformation", inside, None)
@@ -156,21 +216,21 @@ def _named(image, values):
 
 
 def _of_segments(segments, sides):
-    """What Slicer says of segments in the header of their file."""
+    """The lines of Slicer on segments in the header of their file."""
     extent = " ".join(f"0 {side - 1}" for side in sides)
     lines = []
     for i, (value, name, color) in enumerate(segments):
-        said = {"ID": f"Segment_{value}", "Name": " ".join(name.split()), "NameAutoGenerated": 0,
-                "Color": " ".join(f"{each:.6g}" for each in color), "ColorAutoGenerated": 0,
-                "LabelValue": value, "Layer": 0, "Extent": extent, "Tags": "|"}
-        lines += [f"Segment{i}_{key}:={word}" for key, word in said.items()]
+        fields = {"ID": f"Segment_{value}", "Name": " ".join(name.split()), "NameAutoGenerated": 0,
+                  "Color": " ".join(f"{each:.6g}" for each in color), "ColorAutoGenerated": 0,
+                  "LabelValue": value, "Layer": 0, "Extent": extent, "Tags": "|"}
+        lines += [f"Segment{i}_{key}:={word}" for key, word in fields.items()]
     return [*lines, "Segmentation_ContainedRepresentationNames:=Binary labelmap|",
             "Segmentation_MasterRepresentation:=Binary labelmap",
             "Segmentation_ReferenceImageExtentOffset:=0 0 0"]
 
 
-def _place_of(image, signs):
-    """Where the voxels of an image lie, as lines of an NRRD header in LPS."""
+def _geometry_of(image, signs):
+    """The positions of the voxels of an image, as lines of an NRRD header in LPS."""
     import numpy
 
     matrix = image.GetDirectionMatrix()
@@ -204,7 +264,7 @@ def _write_segments(source, path):
     sides = image.GetDimensions()
     signs = numpy.array((1.0, 1.0, 1.0) if world_axes(source) == "LPS" else (-1.0, -1.0, 1.0))
     segments = _named(image, [int(value) for value in values if value > 0])
-    lines = ["NRRD0004", f"type: {_TYPES[kind]}", "dimension: 3", *_place_of(image, signs),
+    lines = ["NRRD0004", f"type: {_TYPES[kind]}", "dimension: 3", *_geometry_of(image, signs),
              "sizes: " + " ".join(str(side) for side in sides), "kinds: domain domain domain",
              "endian: little", "encoding: gzip", *_of_segments(segments, sides), "", ""]
     with open(path + ".part", "wb") as file:
@@ -216,13 +276,45 @@ def _write_segments(source, path):
     os.replace(path + ".part", path)
 
 
-def _save_all(saving, volumes, points, segmentations, how):
+def _is_moved(points):
+    """Whether points are deformed already: by Deform Geometry, unless that led them back, or by a
+    transform of a scene that bends."""
+    proxies = inputs_of(points).values()
+    steps = [1 - 2 * proxy.GetProperty("Direction").GetElement(0) for proxy in proxies
+             if proxy.GetXMLName() == "DeformGeometry"]  # forward: 1, backward: -1
+    return sum(steps) > 0 or any(proxy.GetXMLName() == "TransformReport" and _bends(proxy)
+                                 for proxy in proxies)
+
+
+def _bends(report):
+    """Whether a transform does more than rotate, shift and mirror, which readers of volumes do."""
+    import numpy
+
+    report.UpdatePropertyInformation()
+    rows = report.GetProperty("Matrix")
+    numbers = numpy.array([rows.GetElement(i) for i in range(rows.GetNumberOfElements())])
+    axes = numbers.reshape(-1, 4)[:3, :3]
+    return len(axes) == 0 or bool(numpy.abs(axes.T @ axes - numpy.eye(3)).max() > _RIGID)
+
+
+def _is_path(given):
+    return isinstance(given, (str, os.PathLike))
+
+
+def _save_points(saving, points, above):
+    """Adds points, `above` being the transform that they are below."""
+    name = os.path.basename(points).split(".")[0] if _is_path(points) else _name(points)
+    saving.points(points, name, above)
+
+
+def _save_all(saving, given, how):
     """Adds what is to be saved; how: whether hardened, and the spacing."""
     from paraview import simple
 
     hardened, spacing = how
+    volumes, points, moved_points, segmentations = given
     above = shown = None
-    for volume in _sources(volumes):
+    for volume in volumes:
         is_bent = _kind(volume) == "FreeFormDeformation"
         name = _name(volume.Input if is_bent else volume)
         transform = saving.deformation(volume, name, spacing) if is_bent else None
@@ -238,18 +330,41 @@ def _save_all(saving, volumes, points, segmentations, how):
             finally:
                 simple.Delete(baked)
                 simple.SetActiveSource(active)
-    for labels in _sources(segmentations):
+    for labels in segmentations:
         saving.segmentation(labels, _name(labels), above)
-    for each in _sources(points):
-        is_path = isinstance(each, (str, os.PathLike))
-        name = os.path.basename(each).split(".")[0] if is_path else _name(each)
-        is_moved = not is_path and _kind(each) in ("DeformGeometry", "TransformPoints")
-        saving.points(each, name, None if is_moved else above)
+    for each in points:
+        is_moved = not _is_path(each) and _is_moved(each)
+        _save_points(saving, each, None if is_moved else above)
+    for each in moved_points:
+        _save_points(saving, each, None)
     if shown:
         saving.slices(shown)
 
 
-def save_scene(path, volumes, points=(), segmentations=(), hardened=True, spacing=2.0):
+def _save_beside(path, given, how):
+    """Saves a `.mrml` and a new folder of data. Files of an earlier save stay until the new scene
+    is whole, and longer if a source reads them."""
+    folder, name = os.path.split(os.path.splitext(os.path.abspath(path))[0])
+    os.makedirs(folder, exist_ok=True)
+    former = _data_folders(folder, f"{name}-data")
+    number = max(former, default=0) + 1
+    saving = _Saving(folder, f"{name}-data" if number == 1 else f"{name}-data {number}")
+    data = os.path.join(folder, saving.data)
+    try:
+        _save_all(saving, given, how)
+        _mark(data, path)
+        saving.write(path)
+    except BaseException:
+        shutil.rmtree(data, ignore_errors=True)
+        raise
+    proxies = [each for kind in given for each in kind if not _is_path(each)]
+    for each in former.values():
+        if _is_own(each, path) and not _is_read(each, proxies):
+            shutil.rmtree(each, ignore_errors=True)
+
+
+def save_scene(path, volumes, points=(), segmentations=(), hardened=True, spacing=2.0,
+               moved_points=()):
     """Save bent volumes, landmarks and segmentations as a scene that 3D Slicer opens.
 
     - `path`: path of the scene to write: a `.mrml`, whose files are in a folder beside it that ends
@@ -257,17 +372,23 @@ def save_scene(path, volumes, points=(), segmentations=(), hardened=True, spacin
     - `volumes`: a Free-Form Deformation or a volume, or a list of them. Of a Free-Form Deformation
       the scene has the volume at rest, above it the deformation as a grid transform, and its
       Segmentation below the same transform.
-    - `points`: a source of landmarks or the path of a file of them, or a list. They are written as
-      `.mrk.json`. Points at rest are put below the transform of the first Free-Form Deformation;
-      the output of a Deform Geometry is moved already.
+    - `points`: landmarks at rest: a source or the path of a file, or a list. They are written as
+      `.mrk.json`, below the transform of the first Free-Form Deformation. Sources behind a Deform
+      Geometry, and those that `open_scene` moved by a transform that bends, count as
+      `moved_points`.
     - `segmentations`: a source of labels at rest, or a list. They are put below the same transform,
       with the names and colours of their segments.
     - `hardened`: whether a copy with the deformation baked into its voxels goes beside each bent
       volume. Default: `True`.
     - `spacing`: the distance between the points of the grid transform (mm). Default: 2. `None`
       takes the points of the volume. Slicer interpolates between them.
+    - `moved_points`: landmarks at deformed positions, given like `points`. No transform is above
+      them.
 
-    Volumes are written where they are, the scene where Python runs.
+    Volumes are written where they are, the scene where Python runs. Nothing is overwritten but the
+    scene: if there is a folder of its data, the new one ends in `-data 2`, and so on. The former
+    one is deleted once the new scene is whole, unless it has other files or a source reads it. If
+    the scene is not written, the former scene stays.
 
     Raises `ValueError` if `path` has another ending or labels are no whole numbers, and `OSError`
     with the reason if a file is not written.
@@ -276,17 +397,16 @@ def save_scene(path, volumes, points=(), segmentations=(), hardened=True, spacin
     base, ending = os.path.splitext(path)
     if ending.lower() not in (".mrml", ".mrb"):
         raise ValueError(f"path is {path!r}; it must end in .mrml or .mrb")
-    name = os.path.basename(base)
+    given = [_list(each) for each in (volumes, points, moved_points, segmentations)]
     if ending.lower() == ".mrml":
-        saving = _Saving(os.path.dirname(os.path.abspath(path)), f"{name}-data")
-        _save_all(saving, volumes, points, segmentations, (hardened, spacing))
-        saving.write(path)
+        _save_beside(path, given, (hardened, spacing))
         return
+    name = os.path.basename(base)
     beside = os.path.dirname(os.path.abspath(path))
     around = tempfile.mkdtemp(prefix="brainshift-scene-", dir=beside)
     try:
         saving = _Saving(os.path.join(around, name.strip() or "scene"), "Data")
-        _save_all(saving, volumes, points, segmentations, (hardened, spacing))
+        _save_all(saving, given, (hardened, spacing))
         saving.write(os.path.join(saving.folder, f"{name}.mrml"))
         pack(saving.folder, path)
     finally:

@@ -181,7 +181,20 @@ def test_what_is_not_known_is_refused():
     refused("SpacingBetweenSlices is 0;", change=setting(SpacingBetweenSlices="0"))
     refused("4 x 4 tiles do not divide", header={**normal, "NumberOfImagesInMosaic": [16]})
     refused("without ImagePositionPatient", change=setting(ImagePositionPatient=None))
-    refused("frames that are mosaics", change=setting(NumberOfFrames=1))
+    def doubled(image):
+        image.NumberOfFrames, image.PixelData = 2, 2 * image.PixelData
+
+    refused("has 2 frames that are mosaics", change=doubled)
+
+
+def test_one_frame_may_be_counted():
+    def counted(image):
+        image.NumberOfFrames = 1
+
+    path, affine, voxels = mosaic("counted", change=counted)
+    reader, told = read(path)
+    assert not told, told
+    assert_volumes(reader, affine, voxels)
 
 
 def test_slices_that_were_cut_out_of_a_mosaic_are_slices():

@@ -145,6 +145,14 @@ def test_units_have_their_size():
         assert abs(output(source).GetSpacing()[0] / (2.5 * mm) - 1.0) < 1e-9, units
 
 
+def test_cosines_count_as_directions_alone():
+    for length, said_words in ((1.0009, False), (1.1, True)):
+        cosines = length * numpy.array(COSINES["xspace"])
+        source, said = said_of(write("long", change=setting("xspace", direction_cosines=cosines)))
+        assert ("long, which count as 1" in said) == said_words, said
+        assert abs(output(source).GetSpacing()[0] - 2.5) < 1e-9, length
+
+
 def test_what_an_axis_lacks_is_reported():
     def change(file):
         del file.variables["xspace"]._attributes["step"]  # scipy has no call for it
@@ -198,6 +206,49 @@ def test_a_file_that_is_cut_anywhere_is_refused():
         short = volume_files.write(scratch("short.mnc"), content[:end])
         source, said = said_of(short)
         assert said and output(source).GetNumberOfPoints() == 0, (end, said)
+
+
+def with_gap(content, gap):
+    """A netCDF file with unused bytes between its header and its data, as nc__enddef can leave.
+    The offsets of all variables are the last words of their entries in the header."""
+    count = content.index(b"\0\0\0\x0b") + 4
+    begins = []
+    at = count + 4
+
+    def word(place):
+        return int.from_bytes(content[place:place + 4], "big")
+
+    def padded(size):
+        return -(-size // 4) * 4
+
+    for _ in range(word(count)):
+        at += 4 + padded(word(at))
+        at += 4 + 4 * word(at)
+        attributes, at = word(at + 4), at + 8
+        for _ in range(attributes):
+            at += 4 + padded(word(at))
+            at += 8 + padded(word(at + 4) * {1: 1, 2: 1, 3: 2, 4: 4, 5: 4, 6: 8}[word(at)])
+        at += 12
+        begins.append(at - 4)
+    first = min(word(place) for place in begins)
+    moved = bytearray(content)
+    for place in begins:
+        moved[place:place + 4] = (word(place) + gap).to_bytes(4, "big")
+    return bytes(moved[:first]) + bytes(gap) + bytes(moved[first:])
+
+
+def test_a_file_with_a_gap_before_its_data_is_whole_or_refused():
+    path = write("gap", kind="float32", ranged=())
+    with open(path, "rb") as file:
+        content = with_gap(file.read(), 256)
+    source, said = said_of(volume_files.write(scratch("gap whole.mnc"), content))
+    assert not said, said
+    numpy.testing.assert_array_equal(voxels(source), numbers(ORDER, "float32"))
+    for cut in (4, 100, 256, 300):
+        short = volume_files.write(scratch("gap cut.mnc"), content[:-cut])
+        source, said = said_of(short)
+        assert f"its header announces {len(content)}" in said, (cut, said)
+        assert output(source).GetNumberOfPoints() == 0, cut
 
 
 run_tests(globals())

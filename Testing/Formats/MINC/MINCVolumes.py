@@ -105,7 +105,7 @@ def test_uneven_times_that_are_none_are_told():
 def test_an_uneven_axis_of_space_says_its_error():
     source, said = uneven("xspace", (0.0, 1.0, 2.0, 6.0))
     assert "has an uneven spacing along xspace" in said, said
-    assert "even spacing 2 mm, up to 2 mm from its place" in said, said
+    assert "even spacing 2 mm, up to 2 mm from its positions" in said, said
     assert output(source).GetSpacing()[0] == 2.0 and output(source).GetBounds()[1] == 6.0
     source, said = uneven("xspace", (-3.0, -1.0, 1.0, 3.0))  # even after all
     assert not said, said

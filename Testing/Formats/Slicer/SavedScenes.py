@@ -12,9 +12,10 @@ import zipfile
 
 import numpy
 import slicer_testing as slicer
-from brainshift_testing import ball, load_plugin, output, run_tests, scratch, volume
+from brainshift_testing import ball, load_plugin, messages, output, run_tests, scratch, volume
 from outside_testing import FLIP
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersHybrid import vtkGridTransform
 
@@ -26,16 +27,18 @@ NEAR_FIELD = 0.05  # mm: the samples of the field are 2 mm apart
 REST = numpy.random.default_rng(9).uniform((-25, -20, -25), (25, 20, 25), (10, 3))
 
 
+ORIGIN = numpy.array((-40.0, -44.0, -30.0))  # LPS
+HEAD, LABELS = ball(41, 14).astype(numpy.int16), numpy.zeros((41, 41, 41), numpy.uint8)
+HEAD[5:8, 6:12, 30:34] = 55  # no two axes are alike, and no two ends of one
+LABELS[15:25, 15:25, 15:25], LABELS[30:34, 3:9, 5:8] = 3, 7
+
+
 def bent_head():
     """A volume of a file, bent by two strokes, and labels."""
-    slicer.write_nrrd(scratch("Kopf ä.nrrd"), ball(41, 14).astype(numpy.int16), (-40, -40, -40),
-                      numpy.eye(3) * 2.0)
-    labels = numpy.zeros((41, 41, 41), numpy.uint8)
-    labels[15:25, 15:25, 15:25], labels[30:34, 5:9, 5:9] = 3, 7
+    slicer.write_nrrd(scratch("Kopf ä.nrrd"), HEAD, ORIGIN, numpy.eye(3) * 2.0)
     words = ("Segment0_ID:=Segment_1", "Segment0_Name:=Tümor", "Segment0_Color:=1 0.5 0",
              "Segment0_LabelValue:=3", "Segment0_Layer:=0")
-    slicer.write_nrrd(scratch("Labels.seg.nrrd"), labels, (-40, -40, -40), numpy.eye(3) * 2.0,
-                      words)
+    slicer.write_nrrd(scratch("Labels.seg.nrrd"), LABELS, ORIGIN, numpy.eye(3) * 2.0, words)
     head = simple.NRRDVolumeReader(FileName=scratch("Kopf ä.nrrd"))
     segments = simple.NRRDVolumeReader(FileName=scratch("Labels.seg.nrrd"))
     bent = simple.FreeFormDeformation(Input=head)
@@ -54,20 +57,37 @@ def header_and_values(path):
     words = dict(line.replace(":=", ": ", 1).split(": ", 1)
                  for line in head.decode().split("\n")[1:] if ": " in line or ":=" in line)
     data = gzip.decompress(data) if words["encoding"].startswith("gz") else data
+    assert words.get("endian", "little") == "little", words
     kind = {"float": "<f4", "double": "<f8", "short": "<i2", "uint8": "u1",
             "unsigned char": "u1", "int16": "<i2", "uchar": "u1"}[words["type"]]
     sides = [int(word) for word in words["sizes"].split()]
     return words, numpy.frombuffer(data, kind).reshape(sides[::-1])
 
 
+def steps_and_origin(words):
+    """The axes of a file's voxels as rows, and its first voxel (LPS, mm)."""
+    assert words["space"] in ("left-posterior-superior", "LPS"), words
+    steps = [eval(word) for word in words["space directions"].split() if word != "none"]
+    return numpy.array(steps), numpy.array(eval(words["space origin"]))
+
+
+def assert_places(path, right, origin, steps):
+    """A file has each voxel [z, y, x] where it is by `origin` and `steps`, as rows (LPS, mm)."""
+    words, values = header_and_values(path)
+    own_steps, own_origin = steps_and_origin(words)
+    index = numpy.argwhere(numpy.ones(values.shape))[:, ::-1]
+    there = (own_origin + index @ own_steps - origin) @ numpy.linalg.inv(steps)
+    assert numpy.abs(there - numpy.round(there)).max() < 1e-3, there
+    x, y, z = numpy.round(there).astype(int).T
+    assert values.size == right.size and min(x.min(), y.min(), z.min()) == 0
+    assert (values.ravel() == right[z, y, x]).all(), path
+
+
 def moved_as_in_slicer(path, points):
     """RAS points moved from the parent by a grid of a file."""
     words, values = header_and_values(path)
     assert words["displacement field type"] == "resampling", words
-    assert words["space"] in ("left-posterior-superior", "LPS"), words
-    steps = [eval(word) for word in words["space directions"].split() if word != "none"]
-    origin = numpy.array(eval(words["space origin"]))
-    steps = numpy.array(steps)
+    steps, origin = steps_and_origin(words)
     spacing = numpy.linalg.norm(steps, axis=1)
     image = vtkImageData()
     image.SetDimensions(*reversed(values.shape[:3]))
@@ -140,16 +160,58 @@ def test_a_saved_scene_is_bent_in_slicer():
     assert markup["coordinateSystem"] == "LPS"
     stored = numpy.array([point["position"] for point in markup["controlPoints"]]) * FLIP
     assert numpy.abs(stored - REST).max() < 1e-4
-    _, values = header_and_values(files["rest"])
-    assert (numpy.sort(values.ravel()) == numpy.sort(ball(41, 14).astype("i2").ravel())).all()
-    baked = simple.BakeDeformation(Input=bent)
-    baked.UpdatePipeline()
-    right = vtk_to_numpy(output(baked).GetPointData().GetScalars())
-    _, values = header_and_values(files["hardened"])
-    assert (numpy.sort(values.ravel()) == numpy.sort(right)).all()
-    words, values = header_and_values(files["labels"])
+    assert_places(files["rest"], HEAD, ORIGIN, numpy.eye(3) * 2.0)
+    assert_places(files["labels"], LABELS, ORIGIN, numpy.eye(3) * 2.0)
+    words, _ = header_and_values(files["labels"])
     assert words["Segment0_Name"] == "Tümor" and words["Segment0_LabelValue"] == "3", words
-    assert words["Segment1_LabelValue"] == "7" and sorted(numpy.unique(values)) == [0, 3, 7]
+    assert words["Segment1_LabelValue"] == "7", words
+
+
+def test_the_hardened_copy_has_each_voxel_where_the_bake_has_it():
+    bent, _, _ = bent_head()
+    path = scratch("hardened.mrml")
+    brainshift.save_scene(path, bent)
+    root, by_id = nodes_of(path)
+    node = next(node for node in root if node.get("name") == "Kopf ä hardened")
+    baked = simple.BakeDeformation(Input=bent)
+    image = output(baked)
+    right = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(
+        tuple(reversed(image.GetDimensions())))
+    first, steps = numpy.zeros(3), numpy.zeros((3, 3))
+    image.TransformIndexToPhysicalPoint([0, 0, 0], first)
+    for step, index in zip(steps, numpy.eye(3, dtype=int)):
+        image.TransformIndexToPhysicalPoint([int(each) for each in index], step)
+        step -= first
+    assert_places(file_of(scratch("."), node, by_id), right, first * FLIP, steps * FLIP)
+
+
+def in_lps(voxels, name):
+    """A source of voxels at ORIGIN that says that its world axes are LPS."""
+    source = volume(voxels, ORIGIN, (2.0, 2.0, 2.0))
+    axes = vtkStringArray()
+    axes.SetName("WorldAxes")
+    axes.InsertNextValue("LPS")
+    source.GetClientSideObject().GetOutputDataObject(0).GetFieldData().AddArray(axes)
+    simple.RenameSource(name, source)
+    source.UpdatePipeline()
+    return source
+
+
+def test_a_volume_in_lps_is_bent_in_slicer():
+    bent = simple.FreeFormDeformation(Input=in_lps(HEAD, "Head"))
+    bent.Strokes = brainshift.move((-10, -8, 5), (3, 5, 2))
+    path = scratch("lps.mrml")
+    with messages() as told:
+        brainshift.save_scene(path, bent, segmentations=in_lps(LABELS, "Labels"))
+    assert not told.text, told.text
+    root, by_id = nodes_of(path)
+    files = {node.get("name"): file_of(scratch("."), node, by_id) for node in root
+             if node.tag in ("Volume", "Segmentation", "GridTransform")}
+    assert_places(files["Head"], HEAD, ORIGIN, numpy.eye(3) * 2.0)
+    assert_places(files["Labels"], LABELS, ORIGIN, numpy.eye(3) * 2.0)
+    deformed = brainshift.deformed_from_rest(bent, REST)
+    back = moved_as_in_slicer(files["Head deformation"], deformed * FLIP) * FLIP
+    assert numpy.linalg.norm(back - REST, axis=1).max() < NEAR_FIELD
 
 
 def test_a_bundle_comes_back():
@@ -186,6 +248,153 @@ def test_plain_volumes_and_wrong_names():
         assert "must end in .mrml or .mrb" in str(problem)
     else:
         raise AssertionError("another ending is not refused")
+
+
+def fresh(name):
+    """A folder with nothing in it."""
+    shutil.rmtree(scratch(name), ignore_errors=True)
+    os.makedirs(scratch(name))
+    return scratch(name)
+
+
+def contents(folder):
+    """The bytes of all files below a folder, by their paths in it."""
+    found = {}
+    for root, _, names in os.walk(folder):
+        for name in names:
+            with open(os.path.join(root, name), "rb") as file:
+                found[os.path.relpath(os.path.join(root, name), folder)] = file.read()
+    return found
+
+
+def folders(folder):
+    return sorted(name for name in os.listdir(folder) if os.path.isdir(os.path.join(folder, name)))
+
+
+def head_in(folder, name):
+    path = os.path.join(folder, name)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    return slicer.write_nrrd(path, ball(21, 7).astype(numpy.int16), (-40, -40, -40),
+                             numpy.eye(3) * 4.0)
+
+
+def bent_file(path):
+    head = simple.NRRDVolumeReader(FileName=path)
+    return simple.FreeFormDeformation(Input=head, Strokes=brainshift.move((0, 0, 0), (4, 0, 0)))
+
+
+def test_files_that_were_there_stay():
+    folder = fresh("kept files")
+    bent = bent_file(head_in(folder, "p-data/T1.nrrd"))
+    head_in(folder, "p-data/T1 hardened.nrrd")
+    before = contents(folder)
+    brainshift.save_scene(os.path.join(folder, "p.mrml"), bent)
+    assert before.items() <= contents(folder).items()
+    simple.Delete(bent.Input)
+    brainshift.save_scene(os.path.join(folder, "q.mrml"), bent)
+    assert before.items() <= contents(folder).items()
+
+
+def test_a_second_save_takes_the_place_of_the_first():
+    folder = fresh("twice")
+    bent = bent_file(head_in(folder, "T1.nrrd"))
+    path = os.path.join(folder, "p.mrml")
+    for _ in range(3):
+        brainshift.save_scene(path, bent)
+    last, = folders(folder)
+    root, by_id = nodes_of(path)
+    for node in root:
+        if node.tag in ("Volume", "GridTransform"):
+            assert os.path.dirname(file_of(folder, node, by_id)) == os.path.join(folder, last)
+    with open(os.path.join(folder, last, "T1.nrrd"), "ab") as file:
+        file.write(b"by another program")
+    brainshift.save_scene(path, bent)
+    assert last in folders(folder) and len(folders(folder)) == 2
+
+
+def test_a_scene_that_is_saved_onto_itself_keeps_what_its_sources_read():
+    folder = fresh("onto itself")
+    path = os.path.join(folder, "scene.mrml")
+    brainshift.save_scene(path, bent_file(head_in(folder, "T1.nrrd")))
+    scene = xml.etree.ElementTree.parse(path)
+    turn = scene.getroot().makeelement("LinearTransform", {
+        "id": "turn", "name": "turn",
+        "matrixTransformToParent": slicer.numbers(slicer.TURN)})
+    scene.getroot().append(turn)
+    grid = next(node for node in scene.getroot() if node.tag == "GridTransform")
+    grid.set("references", grid.get("references") + "transform:turn;")
+    scene.write(path, encoding="utf-8", xml_declaration=True)
+    found = brainshift.open_scene(path)
+    bent = found.volumes["T1"]
+    bent.Strokes = brainshift.move((0, 0, 30), (0, 3, 0))
+    before, points = contents(folder), REST / 2
+    right = brainshift.deformed_from_rest(bent, points)
+    brainshift.save_scene(path, list(found.volumes.values()))
+    after = contents(folder)
+    assert all(after[name] == before[name] for name in before if name != "scene.mrml")
+    again = brainshift.open_scene(path, folder=fresh("opened again")).volumes
+    there = next(each for name, each in again.items() if each.SMProxy.GetXMLName() ==
+                 "FreeFormDeformation")
+    away = brainshift.deformed_from_rest(there, points) - right
+    assert numpy.linalg.norm(away, axis=1).max() < 0.15, away
+
+
+def test_a_scene_that_is_refused_leaves_the_former_one():
+    folder = fresh("refused")
+    bent = bent_file(head_in(folder, "T1.nrrd"))
+    path = os.path.join(folder, "p.mrml")
+    brainshift.save_scene(path, bent)
+    before = contents(folder)
+    bent.Strokes = brainshift.move((0, 0, 0), (0, 6, 0))
+    try:
+        brainshift.save_scene(path, bent, segmentations=volume(ball(9, 3) - 1.0))
+    except ValueError as problem:
+        assert "values from -1.0" in str(problem), problem
+    else:
+        raise AssertionError("labels below 0 are not refused")
+    assert contents(folder) == before
+    assert len(folders(folder)) == 1
+
+
+
+def parents_of(path):
+    """Of each markup of a scene: the tag of what is above it, or None."""
+    root, by_id = nodes_of(path)
+    above = {node.get("name"): refers(node, "transform") for node in root
+             if node.tag == "MarkupsFiducial"}
+    return {name: by_id[parent].tag if parent else None for name, parent in above.items()}
+
+
+def test_points_that_are_moved_are_below_nothing():
+    folder = fresh("moved points")
+    bent = bent_file(head_in(folder, "T1.nrrd"))
+    scene = slicer.Written("points to move")
+    scene.landmarks("Marks", REST)
+    rest = simple.LandmarkReader(FileName=scene.path("Marks.mrk.json"))
+    moved = simple.DeformGeometry(registrationName="moved", Input=rest, Deformation=bent)
+    behind = simple.Elevation(registrationName="behind", Input=moved)
+    back = simple.DeformGeometry(registrationName="back", Input=moved, Deformation=bent,
+                                 Direction="Backward")
+    hand = shutil.copy(scene.path("Marks.mrk.json"), scene.path("hand.mrk.json"))
+    path = os.path.join(folder, "p.mrml")
+    brainshift.save_scene(path, bent, points=[rest, moved, behind, back],
+                          moved_points=hand)
+    assert parents_of(path) == {"Marks": "GridTransform", "moved": None, "behind": None,
+                                "back": "GridTransform",
+                                "hand": None}, parents_of(path)
+
+
+def test_points_of_a_scene_are_at_rest_where_they_only_turned():
+    folder = fresh("scene points")
+    scene = slicer.Written("points of a scene")
+    for name, matrix in (("turned", slicer.TURN), ("mirrored", numpy.diag((-1.0, 1, 1, 1))),
+                         ("stretched", slicer.STRETCH)):
+        scene.landmarks(name, REST, scene.linear("T " + name, matrix).replace(" ", "_"))
+    found = brainshift.open_scene(scene.written()).points
+    path = os.path.join(folder, "p.mrml")
+    brainshift.save_scene(path, bent_file(head_in(folder, "T1.nrrd")), points=list(found.values()))
+    assert parents_of(path) == {"turned": "GridTransform", "mirrored": "GridTransform",
+                                "stretched": None}, parents_of(path)
 
 
 run_tests(globals())
