@@ -18,7 +18,7 @@ brainshiftGuardRequestsMacro(vtkSlicerSceneReader);
 
 namespace
 {
-constexpr std::size_t BeginBytes = 4096; // a comment may stand before the first node
+constexpr std::size_t BeginBytes = 4096; // a comment may precede the first node
 constexpr std::string_view Zip("PK\3\4", 4);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSlicerSceneReader
- * @brief   stands for a scene of 3D Slicer until Python has opened it
+ * @brief   holds the name of a scene of 3D Slicer until Python has opened it
  *
  * A scene makes many sources, so no reader can output it. The window opens the file of this source
  * with `brainshift.open_scene` and deletes the source. Where there is no window, an error says what

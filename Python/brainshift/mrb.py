@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bundles of 3D Slicer (.mrb): zip files of a scene and its data, unpacked and packed."""
 
+import contextlib
+import hashlib
 import os
 import shutil
 import stat
@@ -11,41 +13,83 @@ import zlib
 
 from .mrml import SceneProblem, shown
 
+try:
+    from lzma import LZMAError
+except ImportError:  # zipfile then refuses what is packed so
+    LZMAError = zlib.error
+
 #: What a bundle may have. Deflate packs 1032 bytes into one at most.
 MOST_FILES, MOST_RATIO, SMALL, SPARE = 20_000, 1100, 2**20, 2**30
 
-#: Marks folders that were made for a scene, so that they may be filled again.
+#: Marks folders that were made for a scene, so that they may be filled again. It holds the digest
+#: of a bundle, so that files of another one are never taken for its own.
 MARK = ".brainshift-scene"
 
 #: What zipfile raises for damaged files.
 _FAULTS = (OSError, ValueError, EOFError, RuntimeError, OverflowError, zipfile.BadZipFile,
-           zlib.error, struct.error)
+           zlib.error, struct.error, LZMAError)
 
 _CHUNK = 2**20
 _PACKED = (".gz", ".nrrd", ".mgz", ".h5", ".jpg", ".png")
+
+
+def _digest(path):
+    """The digest of a bundle; empty for a scene that is none."""
+    if not path.lower().endswith(".mrb"):
+        return ""
+    digest = hashlib.sha256()
+    with open(path, "rb") as file:
+        while chunk := file.read(_CHUNK):
+            digest.update(chunk)
+    return digest.hexdigest()
+
+
+def _taken(folder, digest):
+    """Whether a folder is empty, new or of the same scene; then it is there and marked."""
+    mark = os.path.join(folder, MARK)
+    if os.path.isdir(folder) and os.listdir(folder):
+        if not os.path.isfile(mark) or not os.access(folder, os.W_OK):
+            return False
+        with open(mark, encoding="utf-8", errors="replace") as file:
+            return file.read(len(digest) + 1) == digest
+    os.makedirs(folder, exist_ok=True)
+    with open(mark, "w", encoding="utf-8") as file:
+        file.write(digest)
+    return True
+
+
+def _named_folder(path, folder):
+    """The folder that the caller names. That of a bundle must hold nothing else."""
+    folder = os.path.abspath(folder)
+    try:
+        digest = _digest(path)
+        if digest and not _taken(folder, digest):
+            raise SceneProblem(f"is not unpacked into {folder}, which holds other files; name a "
+                               "new or an empty folder")
+        os.makedirs(folder, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as problem:
+        raise SceneProblem(f"needs a folder for its files, and {folder} cannot be one "
+                           f"({problem.strerror}); name another folder") from problem
+    return folder
 
 
 def folder_for(path, folder):
     """A folder for what a scene unpacks to or needs; and a note, or None. `folder`: the one that
     the caller names, or None for one beside the scene."""
     if folder is not None:
-        os.makedirs(folder, exist_ok=True)
-        return os.path.abspath(folder), None
+        return _named_folder(path, folder), None
+    digest = _digest(path)
     beside = os.path.splitext(os.path.abspath(path))[0] + "-opened"
     for name in (beside, *(f"{beside} {number}" for number in range(2, 100))):
         try:
-            if not os.path.isdir(name) or not os.listdir(name):
-                os.makedirs(name, exist_ok=True)
-                with open(os.path.join(name, MARK), "w", encoding="utf-8"):
-                    pass
+            if _taken(name, digest):
                 return name, None
         except OSError:
             break
-        if os.path.isfile(os.path.join(name, MARK)) and os.access(name, os.W_OK):
-            return name, None
     made = tempfile.mkdtemp(prefix="brainshift-scene-")
-    return made, (f"Files of the scene are in {made}, because nothing can be written beside it. "
-                  "Name a folder to keep, or saved states will not find them.")
+    return made, (f"Files of the scene are in {made}, because no folder beside it can be written "
+                  "to. Name a folder to keep, or saved states will not find them.")
 
 
 def _name(entry):
@@ -73,26 +117,55 @@ def _require_good(entry, name):
 
 def _unpack(bundle, entry, path):
     os.makedirs(os.path.dirname(path), exist_ok=True)
-    with bundle.open(entry) as packed, open(path + ".part", "wb") as file:
-        shutil.copyfileobj(packed, file, _CHUNK)
-    os.replace(path + ".part", path)
+    with _whole(path) as part:
+        with bundle.open(entry) as packed, open(part, "wb") as file:
+            shutil.copyfileobj(packed, file, _CHUNK)
 
 
-def unpack(path, folder):
-    """Unpacks a bundle. Returns the path of its scene, and sentences on what was left out."""
+@contextlib.contextmanager
+def _whole(path):
+    """The name of a file to write, which takes the place of `path` when it is whole."""
+    part = path + ".part"
+    try:
+        yield part
+        os.replace(part, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.remove(part)
+        raise
+
+
+def _entries(bundle):
+    """The files of a bundle that has a scene."""
+    entries = [entry for entry in bundle.infolist() if not entry.is_dir()]
+    if len(entries) > MOST_FILES:
+        raise SceneProblem(f"has {len(entries)} files; a bundle may have {MOST_FILES}")
+    if not any(_name(entry).lower().endswith(".mrml") for entry in entries):
+        raise SceneProblem("holds no scene (.mrml)")
+    return entries
+
+
+def _require_room(entries, folder):
+    total = sum(entry.file_size for entry in entries)
+    free = shutil.disk_usage(folder).free - SPARE
+    if total > free:
+        if os.listdir(folder) == [MARK]:
+            shutil.rmtree(folder)
+        raise SceneProblem(f"unpacks to {total} bytes, and {max(free, 0)} are free in {folder}")
+
+
+def unpack(path, make_folder):
+    """Unpacks a bundle. `make_folder` returns the folder; it is called once the bundle is known to
+    have a scene. Returns the path of the scene, and sentences on what was left out."""
     notes, scenes, taken = [], [], set()
     try:
         opened = zipfile.ZipFile(path)
     except _FAULTS as problem:
         raise SceneProblem(f"cannot be read: {shown(problem)}") from problem
     with opened as bundle:
-        entries = [entry for entry in bundle.infolist() if not entry.is_dir()]
-        total = sum(entry.file_size for entry in entries)
-        free = shutil.disk_usage(folder).free - SPARE
-        if len(entries) > MOST_FILES:
-            raise SceneProblem(f"has {len(entries)} files; a bundle may have {MOST_FILES}")
-        if total > free:
-            raise SceneProblem(f"unpacks to {total} bytes, and {max(free, 0)} are free in {folder}")
+        entries = _entries(bundle)
+        folder = make_folder()
+        _require_room(entries, folder)
         for entry in entries:
             name = _name(entry)
             try:
@@ -120,11 +193,10 @@ def unpack(path, folder):
 
 def pack(folder, path):
     """Packs a folder as a bundle, which takes the place of an old one when it is whole."""
-    with zipfile.ZipFile(path + ".part", "w", zipfile.ZIP_DEFLATED) as bundle:
+    with _whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as bundle:
         for root, _, names in sorted(os.walk(folder)):
             for name in sorted(names):
                 file = os.path.join(root, name)
                 inside = os.path.relpath(file, os.path.dirname(folder))
                 kind = zipfile.ZIP_STORED if name.endswith(_PACKED) else zipfile.ZIP_DEFLATED
                 bundle.write(file, inside, kind)
-    os.replace(path + ".part", path)

@@ -163,6 +163,12 @@ def read_scene(path):
     return Scene(path, handler.version, handler.nodes, by_id, notes)
 
 
+def is_below(scene, path):
+    """Whether a file is below the folder of a scene, once links are followed."""
+    folder = os.path.realpath(os.path.dirname(os.path.abspath(scene.path)))
+    return "\0" not in path and os.path.realpath(path).startswith(folder + os.sep)
+
+
 def path_of(scene, name, outside):
     """The path of a file that a scene names. `outside`: whether it may be elsewhere than below the
     folder of the scene."""
@@ -172,8 +178,7 @@ def path_of(scene, name, outside):
         raise SceneProblem(f"is at {shown(name)}, which is no file of this machine")
     path = next((each for each in (os.path.join(folder, name), os.path.join(folder, slashed))
                  if os.path.exists(each)), os.path.join(folder, slashed))
-    below = os.path.realpath(path).startswith(os.path.realpath(folder) + os.sep)
-    if not below and not outside:
+    if not outside and not is_below(scene, path):
         raise SceneProblem(f"is in {shown(name)}, outside the folder of the scene; move it there, "
                            "or open the scene with outside=True")
     if not os.path.isfile(path):

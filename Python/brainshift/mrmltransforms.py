@@ -10,6 +10,7 @@ import hashlib
 import os
 
 from .mrml import SceneClause, SceneProblem, path_of
+from .mrmlfiles import require_below
 from .transforms import _LPS, _write_itk, read_transform
 
 #: Kinds of transform nodes.
@@ -57,7 +58,7 @@ def _link_of_file(node, path):
     except OSError as problem:
         raise SceneProblem(f"cannot be read: {problem}") from problem
     matrix = transform.moving_from_fixed
-    # Scenes before Slicer 4.4 said which way files lead, linear ones by the opposite word.
+    # Scenes before Slicer 4.4 name the direction of files, that of linear ones by its opposite.
     word = node.attributes.get("readWriteAsTransformToParent")
     if word is not None and (word == "true") != (node.kind == "LinearTransform"):
         if matrix is None:
@@ -93,6 +94,7 @@ class Transforms:
         if names:
             try:
                 path = path_of(self._scene, names[0], self._outside)
+                require_below(self._scene, path, self._outside, is_transform=True)
                 return _link_of_file(node, path)
             except SceneProblem as problem:
                 if _own_matrix(node) is None:
@@ -103,17 +105,24 @@ class Transforms:
             raise SceneProblem("has neither a matrix nor a file")
         return Link(node.name, matrix=matrix)
 
-    def link(self, node):
-        """The link of a transform node; the same sentence each time if it cannot be read."""
+    def own_link(self, node):
+        """The link of a transform node; the same reason each time if it cannot be read."""
         if node.id not in self._known:
             try:
                 self._known[node.id] = self._read(node)
             except SceneProblem as problem:
-                self._known[node.id] = SceneClause(f"{node.words}, a transform above, {problem}")
+                self._known[node.id] = problem
         found = self._known[node.id]
         if isinstance(found, SceneProblem):
             raise found
         return found
+
+    def link(self, node):
+        """The link of a transform above another node; a reason names the transform."""
+        try:
+            return self.own_link(node)
+        except SceneProblem as problem:
+            raise SceneClause(f"{node.words}, a transform above, {problem}") from problem
 
     def chain(self, node):
         """The links from the world to a node, the outermost transform first."""
@@ -179,6 +188,10 @@ def files_of(links, folder):
         parameters = [*matrix[:3, :3].ravel(), *matrix[:3, 3]]
         digest = hashlib.sha256(repr([float(number) for number in parameters]).encode())
         name = os.path.join(folder(), f"linear-{digest.hexdigest()[:12]}.tfm")
-        _write_itk(name, "AffineTransform", parameters, (0.0, 0.0, 0.0))
+        try:
+            _write_itk(name, "AffineTransform", parameters, (0.0, 0.0, 0.0))
+        except OSError as problem:
+            raise SceneProblem(f"needs {name}, which cannot be written: {problem.strerror}"
+                               ) from problem
         names.append(name)
     return names

@@ -9,6 +9,7 @@ from .casesources import free_name
 from .files import reason_of
 from .mrb import folder_for, unpack
 from .mrml import SceneClause, SceneProblem, path_of, read_scene
+from .mrmlfiles import require_below
 from .mrmlshow import show_all
 from .mrmltransforms import KINDS, Link, Transforms, files_of, merged, motion_in
 from .transforms import read_transform
@@ -37,6 +38,7 @@ _VOLUME_READERS = {
     ".nii.gz": "NIFTIVolumeReader", ".hdr": "NIFTIVolumeReader", ".img": "NIFTIVolumeReader",
     ".mha": "MHAVolumeReader", ".mhd": "MHAVolumeReader", ".mgz": "MGHVolumeReader",
     ".mgh": "MGHVolumeReader", ".mnc": "MINCVolumeReader"}
+_MINC1_READER = "MINC1VolumeReader"
 _MODEL_READERS = {
     ".vtk": ("LegacyVTKReader", "FileNames"), ".vtp": ("XMLPolyDataReader", "FileName"),
     ".ply": ("PLYReader", "FileNames"), ".stl": ("STLReader", "FileNames"),
@@ -89,11 +91,7 @@ class _Opening:
 
     def keep(self, kind, node, name, source):
         """Keeps the last source of a thing. Two things of one name keep both."""
-        held = getattr(self.found, kind)
-        number, free = 2, name
-        while free in held:
-            number, free = number + 1, f"{name} {number}"
-        held[free] = source
+        _put(getattr(self.found, kind), name, source)
         self.shown.append((node, source))
 
     def path(self, node):
@@ -106,16 +104,17 @@ class _Opening:
         if storage.is_on("centerImage") or storage.attributes.get("UseOrientationFromFile") == "0":
             raise SceneProblem("was moved when Slicer loaded its file (centerImage, "
                                "UseOrientationFromFile); save the volume and the scene again")
-        return path_of(self.scene, names[0], self.outside), storage
+        path = path_of(self.scene, names[0], self.outside)
+        require_below(self.scene, path, self.outside)
+        return path, storage
 
     # Volumes -------------------------------------------------------------------------------------
 
     def volume(self, node, kind):
         path, _ = self.path(node)
-        end = _ending(path, _VOLUME_READERS)
         links = self.transforms.chain(node)
-        if end:
-            self.layers(node, kind, links, (_VOLUME_READERS[end], path))
+        if _ending(path, _VOLUME_READERS):
+            self.layers(node, kind, links, (_reader_of(path), path))
             return
         if not path.lower().endswith((".dcm", ".ima")) or links:
             raise SceneProblem(f"is in {os.path.basename(path)}; save it as .nrrd in Slicer")
@@ -190,9 +189,27 @@ class _Opening:
             self.found.notes.append(
                 f"{node.words} is drawn with a lattice of {sides} points along each axis, which "
                 f"misses its transforms by up to {error:.2g} mm.")
+        self.require_positions(node, above, reader, files)
         return simple.FreeFormDeformation(
             registrationName=free_name(name), Input=reader, Lattice=field,
             LatticeDimensions=[sides] * 3)
+
+    def require_positions(self, node, above, reader, files):
+        """Says where in a volume its transforms have no finite number, and refuses if nowhere."""
+        import numpy
+
+        bounds = numpy.reshape(reader.GetDataInformation().GetBounds(), (3, 2))
+        axes = [numpy.linspace(*ends, _SIDES[0]) for ends in bounds]
+        points = numpy.stack(numpy.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+        transform = read_transform(files)
+        _hold_fields(transform._report)
+        found = numpy.isfinite(transform.map_back(points)).all(axis=1)
+        if not found.any():
+            raise SceneProblem(f"cannot be bent by '{above}', which has no finite number in it")
+        if not found.all():
+            self.found.notes.append(
+                f"{node.words} is below '{above}', which has no finite number at {(~found).sum()} "
+                f"of {found.size} points of the volume; the tissue there stays.")
 
     # Points and surfaces -------------------------------------------------------------------------
 
@@ -270,11 +287,11 @@ class _Opening:
 
     def transform(self, node):
         """What takes points of the world to below a transform node."""
-        chain = merged([*self.transforms.chain(node), self.transforms.link(node)])
+        chain = merged([*self.transforms.chain(node), self.transforms.own_link(node)])
         still = [Link(node.name, matrix=_identity())]
         transform = read_transform(files_of(chain or still, self.folder))
         _hold_fields(transform._report)
-        self.found.transforms[node.name] = transform
+        _put(self.found.transforms, node.name, transform)
 
     # All of it -----------------------------------------------------------------------------------
 
@@ -306,6 +323,22 @@ class _Opening:
         self.found.notes.extend(self.transforms.notes)
 
 
+def _reader_of(path):
+    """The reader of a volume. MINC1 is netCDF, MINC2 is HDF5; both end in `.mnc`."""
+    end = _ending(path, _VOLUME_READERS)
+    with open(path, "rb") as file:
+        is_minc1 = end == ".mnc" and file.read(3) == b"CDF"
+    return _MINC1_READER if is_minc1 else _VOLUME_READERS[end]
+
+
+def _put(held, name, thing):
+    """Puts a thing into a dictionary; the second one of a name gets a number."""
+    number, free = 2, name
+    while free in held:
+        number, free = number + 1, f"{name} {number}"
+    held[free] = thing
+
+
 def _delete(source):
     """Deletes a source, and the reader before it."""
     from paraview import simple
@@ -328,7 +361,7 @@ def _taken(source, report, direction):
 
 
 def _largest_miss(source, back):
-    """The largest distance of points from where the way there and back leaves them (mm)."""
+    """The largest distance of points from where the map and its inverse take them (mm)."""
     import numpy
     from paraview import servermanager
     from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -417,31 +450,33 @@ def open_scene(path, folder=None, outside=False):
 
     notes = []
     try:
-        scene_path, found = unpack(path, own()) if path.lower().endswith(".mrb") else (path, [])
+        scene_path, found = unpack(path, own) if path.lower().endswith(".mrb") else (path, [])
         notes.extend(found)
         opening = _Opening(read_scene(scene_path), own, outside and scene_path == path)
+        if folder is not None:
+            own()
     except (SceneProblem, OSError) as problem:
-        says = str(problem) if isinstance(problem, SceneProblem) else f"cannot be read: {problem}"
-        raise ValueError(f"Scene {path} {says}") from problem
+        reason = str(problem) if isinstance(problem, SceneProblem) else f"cannot be read: {problem}"
+        raise ValueError(f"Scene {path} {reason}") from problem
     opening.run()
     opening.found.notes[:0] = notes
-    show_all(opening.scene, opening.shown)
-    simple.SetActiveSource(next(iter(opening.found.volumes.values()), active))
     for note in opening.found.notes:
         warnings.warn(f"Scene {os.path.basename(path)}: {note}", stacklevel=2)
+    show_all(opening.scene, opening.shown)
+    simple.SetActiveSource(next(iter(opening.found.volumes.values()), active))
     return opening.found
 
 
 def open_in_window(path):
-    """`open_scene` for File > Open: what it says goes to Output Messages."""
+    """`open_scene` for File > Open: its warnings go to Output Messages."""
     from vtkmodules.vtkCommonCore import vtkOutputWindow
 
-    with warnings.catch_warnings(record=True) as said:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
             open_scene(path)
         except ValueError as problem:
             vtkOutputWindow.GetInstance().DisplayErrorText(f"{problem}\n")
-    for warning in said:
+    for warning in caught:
         vtkOutputWindow.GetInstance().DisplayWarningText(f"{warning.message}\n")
     return ""

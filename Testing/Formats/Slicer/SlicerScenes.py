@@ -21,6 +21,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift import openscene  # noqa: E402
 from paraview import simple  # noqa: E402
 
 NEAR = 1e-3  # mm
@@ -76,8 +77,7 @@ def test_linear_and_nested_transforms():
     # The transforms by themselves: from the world to below them, and back.
     back = found.transforms["Inner"].map_back(WORLD)
     assert numpy.abs(back - of_rows(TURN @ STRETCH, WORLD)).max() < NEAR
-    assert os.path.basename(scene.folder) + "-opened" not in os.listdir(scratch("."))
-    assert sorted(simple.GetSources())[0], "the pipeline has them"
+    assert any(name.endswith(".tfm") for name in os.listdir(scene.path("scene-opened")))
     names = {name for name, _ in simple.GetSources()}
     assert {"both", "both at rest", "free"} <= names, names
 
@@ -375,6 +375,8 @@ def test_bundles():
     opened(path)
     assert not os.path.exists(folder + " 2")
     elsewhere = scratch("elsewhere")
+    shutil.rmtree(elsewhere, ignore_errors=True)
+    opened(path, folder=elsewhere)
     opened(path, folder=elsewhere)
     assert os.listdir(elsewhere)
 
@@ -464,13 +466,107 @@ def write_text(path, text):
         file.write(text)
 
 
-def raises(words, path):
+def raises(words, path, **options):
     try:
-        opened(path)
+        opened(path, **options)
     except ValueError as found:
         assert words in str(found) and os.path.basename(path) in str(found), found
     else:
         raise AssertionError(f"nothing says {words}")
+
+
+def test_an_opened_folder_holds_one_bundle():
+    scene = Written("replaced")
+    scene.landmarks("F", WORLD)
+    path = scene.bundle("patient.mrb")
+    first = opened(path)
+    os.remove(scene.path("F.mrk.json"))
+    os.rename(os.path.splitext(path)[0] + "-opened", scratch("patient-kept"))
+    scene.bundle("patient.mrb")
+    shutil.rmtree(scratch("patient-opened 2"), ignore_errors=True)
+    os.rename(scratch("patient-kept"), scratch("patient-opened"))
+    second = opened(path)
+    assert first.points and not second.points and "no such file" in second.notes[0], second
+    assert os.path.exists(scratch("patient-opened 2"))
+
+
+def test_folders_of_others_stay_as_they_are():
+    scene = Written("foreign")
+    scene.linear("T", TURN)
+    path = scene.bundle("foreign.mrb")
+    folder = scratch("foreign folder")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    write(os.path.join(folder, "mine.txt"), "x")
+    raises("holds other files", path, folder=folder)
+    assert os.listdir(folder) == ["mine.txt"]
+    for each in (path, scene.written()):
+        raises("name another folder", each, folder=os.path.join(folder, "mine.txt"))
+
+
+def test_names_and_reasons_of_transforms():
+    scene = Written("named twice")
+    for number, matrix in enumerate((TURN, STRETCH, numpy.eye(3))):
+        scene.node("LinearTransform", f"T{number}", name="T",
+                   matrixTransformToParent=slicer.numbers(matrix))
+    found = opened(scene.written())
+    assert list(found.transforms) == ["T", "T 2"], found.transforms
+    assert numpy.abs(found.transforms["T"].map_back(WORLD) - of_rows(TURN, WORLD)).max() < NEAR
+    assert found.notes == ["LinearTransform 'T' is not opened: it has a matrix of 9 numbers; it "
+                           "must have 16."], found.notes
+
+
+def test_volumes_below_gaps_are_said():
+    scene = Written("gaps")
+    slicer.write_nrrd(scene.path("head.nrrd"), voxels(), (-25, -20, -15), numpy.diag((5.0,) * 3))
+    some, none = numpy.zeros_like(VECTORS), numpy.full_like(VECTORS, numpy.nan)
+    some[:8] = numpy.nan
+    for name, vectors in (("some", some), ("none", none)):
+        slicer.write_grid(scene.path(f"{name}.nrrd"), vectors, "resampling")
+        scene.stored("GridTransform", name, f"{name}.nrrd")
+        scene.stored("Volume", f"below {name}", "head.nrrd", above=name)
+    found = opened(scene.written())
+    assert list(found.volumes) == ["below some"], found
+    for name in ("some", "none"):
+        assert any(f"'below {name}'" in note and "no finite number" in note
+                   for note in found.notes), found.notes
+
+
+def test_files_name_no_files_outside():
+    slicer.write_nrrd(scratch("outside.raw"), voxels(), (0, 0, 0), numpy.eye(3))
+    raw, inside = scratch("outside.raw"), "NRRD0005\ntype: short\ndimension: 3\nsizes: 11 10 9\n"
+    inside += ("space: left-posterior-superior\nspace origin: (0,0,0)\nendian: little\n"
+               "space directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\n")
+    meta = ("ObjectType = Image\nNDims = 3\nDimSize = 11 10 9\nElementType = MET_SHORT\n")
+    elastix = '(Transform "EulerTransform")\n(InitialTransformParametersFileName "%s")\n'
+    minc = "MNI Transform File\nTransform_Type = Grid_Transform;\nDisplacement_Volume = %s;\n"
+    files = [("Volume", "a.nhdr", inside + f"data file: {raw}\n"),
+             ("Volume", "b.nrrd", inside + "datafile: ../outside.raw\n"),
+             ("Volume", "c.nhdr", inside + "datafile: in.raw\ndata file: ../outside.raw\n"),
+             ("Volume", "d.nhdr", inside + "data file: LIST\nin.raw\n../outside.raw\n"),
+             ("Volume", "e.nhdr", inside + "data file: ../outside%01d.raw 1 2 1\n"),
+             ("Volume", "f.mhd", meta + f"ElementDataFile = {raw}\n"),
+             ("Transform", "g.txt", elastix % raw), ("Transform", "h.xfm", minc % raw)]
+    scene = Written("naming")
+    with open(scene.path("in.raw"), "wb") as file:
+        file.write(voxels().tobytes())
+    for kind, name, text in [*files, ("Volume", "good.nhdr", inside + "data file: in.raw\n")]:
+        write_text(scene.path(name), text)
+        scene.stored(kind, name, name)
+    for found in (opened(scene.written()), opened(scene.bundle("naming.mrb"))):
+        assert list(found.volumes) == ["good.nhdr"] and not found.transforms, found
+        for _, name, _ in files:
+            assert any(f"'{name}' is not opened" in note and "outside the folder" in note
+                       for note in found.notes), (name, found.notes)
+
+
+def test_minc_files_go_to_their_readers():
+    scene = Written("minc")
+    for name, begin in (("one", b"CDF\1"), ("two", b"\x89HDF")):
+        with open(scene.path(f"{name}.mnc"), "wb") as file:
+            file.write(begin)
+    assert openscene._reader_of(scene.path("one.mnc")) == "MINC1VolumeReader"
+    assert openscene._reader_of(scene.path("two.mnc")) == "MINCVolumeReader"
 
 
 def test_hostile_scenes():
@@ -518,6 +614,27 @@ def test_hostile_bundles():
     with zipfile.ZipFile(empty, "w") as file:
         file.writestr("s/readme.txt", "x")
     raises("no scene", empty)
+    for name in ("bad", "empty"):
+        assert not os.path.exists(scratch(f"{name}-opened")), "no folder for what is no bundle"
+    path = bundle("cut.mrb", ("s/a.bin", os.urandom(1000)))
+    with open(path, "rb") as file:
+        data = bytearray(file.read())
+    data[200] ^= 255
+    with open(path, "wb") as file:
+        file.write(data)
+    assert "s/a.bin of the bundle is not unpacked" in opened(path).notes[0]
+    assert not os.path.exists(scratch("cut-opened/s/a.bin.part"))
+    path = scratch("lzma.mrb")
+    shutil.rmtree(scratch("lzma-opened"), ignore_errors=True)
+    with zipfile.ZipFile(path, "w") as file:
+        file.writestr("s/s.mrml", "<MRML></MRML>")
+        file.writestr("s/a.bin", os.urandom(1000), zipfile.ZIP_LZMA)
+    with open(path, "rb") as file:
+        data = file.read()
+    at = data.index(b"s/a.bin") + 7 + 4  # the properties of LZMA
+    with open(path, "wb") as file:
+        file.write(data[:at] + b"\xff" + data[at + 1:])
+    assert "s/a.bin of the bundle is not unpacked" in opened(path).notes[0]
 
 
 run_tests(globals())
