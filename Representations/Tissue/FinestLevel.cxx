@@ -4,6 +4,8 @@
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Tissue/TissueTextures.h"
 
+#include "vtkTextureObject.h"
+
 #include <algorithm>
 
 namespace brainshift
@@ -25,11 +27,13 @@ std::string remarkOn(const std::string& problem, const glm::ivec3& joined)
 }
 }
 
-glm::ivec3 voxelsPerTexel(const glm::ivec3& voxels, const glm::dvec3& spacing, int level)
+glm::ivec3 voxelsPerTexel(
+  const glm::ivec3& voxels, const glm::dvec3& spacing, int level, int longest)
 {
   const double side = (level + 1) * std::min({ spacing.x, spacing.y, spacing.z });
   const glm::dvec3 joined = glm::round(side / spacing);
-  return glm::ivec3(glm::clamp(joined, glm::dvec3(1.0), glm::dvec3(voxels)));
+  const glm::ivec3 least = (voxels + longest - 1) / longest;
+  return glm::max(glm::ivec3(glm::clamp(joined, glm::dvec3(1.0), glm::dvec3(voxels))), least);
 }
 
 bool FinestLevel::draw(GpuTask& gpu, TissueRequest& tissue, const MemoryNeed& need, double limitMiB,
@@ -47,17 +51,21 @@ bool FinestLevel::draw(GpuTask& gpu, TissueRequest& tissue, const MemoryNeed& ne
     this->Problem.clear();
   }
   const std::size_t remarks = gpu.remarks.size();
+  const int longest = vtkTextureObject::GetMaximumTextureSize3D(gpu.window);
+  this->Problem =
+    this->Problem.empty() ? textureProblem(gpu.window, whole.dimensions) : this->Problem;
   for (int level = this->Level;; ++level)
   {
-    const glm::ivec3 joined = voxelsPerTexel(whole.voxels, tissue.values.grid.spacing, level);
-    tissue.values.layout = level > 0 ? coarser(whole, joined) : whole;
+    const glm::ivec3 joined =
+      voxelsPerTexel(whole.voxels, tissue.values.grid.spacing, level, longest);
+    tissue.values.layout = joined == glm::ivec3(1) ? whole : coarser(whole, joined);
     const ValueLayout& layout = tissue.values.layout;
     if (this->attempt(gpu, layout, attempt))
     {
       this->Level = level;
       this->Found.givenBack = ScalarTexture::givenBack(); // on the way, by this volume
       gpu.counters.gpuVoxelsPerTexel = static_cast<std::int64_t>(joined.x) * joined.y * joined.z;
-      if (level > 0)
+      if (!layout.isWhole())
       {
         gpu.remarks.push_back(remarkOn(this->Problem, joined));
       }

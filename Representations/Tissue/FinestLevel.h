@@ -16,10 +16,11 @@ namespace brainshift
 struct GpuTask;
 struct TissueRequest;
 
-/// Voxels a side that become one texel. Level 0: each has its own. Further levels join more of
-/// them, so that texels are as nearly cubes as whole numbers allow: thick slices are joined last.
+/// Voxels a side that become one texel. Level 0: each has its own, unless a side has more than
+/// `longest`. Further levels join more of them, so that texels are as nearly cubes as whole numbers
+/// allow: thick slices are joined last.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::ivec3 voxelsPerTexel(
-  const glm::ivec3& voxels, const glm::dvec3& spacing, int level);
+  const glm::ivec3& voxels, const glm::dvec3& spacing, int level, int longest);
 
 /// Finds the level for one window, and keeps it while nothing that it depends on changes: what does
 /// not fit is not asked for again in each picture.

@@ -15,6 +15,8 @@ using namespace brainshift;
 
 namespace
 {
+constexpr int Card = 2048; // values a side that it takes
+
 const Grid Oblique{ { 7, 5, 4 }, { 1.0, -2.0, 3.0 }, { 0.5, 0.75, 2.0 },
   glm::dmat3(0.0, 1.0, 0.0, -0.8, 0.0, 0.6, 0.6, 0.0, 0.8) };
 
@@ -33,11 +35,12 @@ TEST(FinestLevel, JoinsThickSlicesLast)
 {
   const glm::ivec3 voxels(512, 512, 40);
   const glm::dvec3 spacing(0.5, 0.5, 2.0);
-  EXPECT_EQ(voxelsPerTexel(voxels, spacing, 0), glm::ivec3(1));
-  EXPECT_EQ(voxelsPerTexel(voxels, spacing, 1), glm::ivec3(2, 2, 1));
-  EXPECT_EQ(voxelsPerTexel(voxels, spacing, 3), glm::ivec3(4, 4, 1));
-  EXPECT_EQ(voxelsPerTexel(voxels, spacing, 7), glm::ivec3(8, 8, 2));
-  EXPECT_EQ(voxelsPerTexel({ 100, 100, 1 }, glm::dvec3(0.1), 2), glm::ivec3(3, 3, 1));
+  EXPECT_EQ(voxelsPerTexel(voxels, spacing, 0, Card), glm::ivec3(1));
+  EXPECT_EQ(voxelsPerTexel(voxels, spacing, 1, Card), glm::ivec3(2, 2, 1));
+  EXPECT_EQ(voxelsPerTexel(voxels, spacing, 3, Card), glm::ivec3(4, 4, 1));
+  EXPECT_EQ(voxelsPerTexel(voxels, spacing, 7, Card), glm::ivec3(8, 8, 2));
+  EXPECT_EQ(voxelsPerTexel({ 100, 100, 1 }, glm::dvec3(0.1), 2, Card), glm::ivec3(3, 3, 1));
+  EXPECT_EQ(voxelsPerTexel({ 20000, 6, 6 }, glm::dvec3(1.0), 0, Card), glm::ivec3(10, 1, 1));
 }
 
 // The middle of each texel lies in the middle of its voxels, on points and in cells, also where the

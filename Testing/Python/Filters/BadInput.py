@@ -88,13 +88,14 @@ def test_only_not_a_number_draws_nothing():
         assert not picture(view).any()
 
 
-def test_a_volume_larger_than_the_gpu_takes_is_drawn_undeformed():
+def test_a_volume_longer_than_the_gpu_takes_is_drawn_coarser_along_it():
     # No GPU of today takes 20000 voxels along an axis of a 3D texture.
     with messages() as said:
         _, view = drawn(numpy.full((6, 6, 20000), 100.0, numpy.float32), strokes=())
         look(view, (0, 0, -1), (16.0, 2.5, 2.5), 100.0)
         shown = picture(view)
-    assert_says(said.text, "20000 voxels", "at most", "undeformed")
+    assert_says(said.text, "20000 voxels", "at most", "drawn coarser", " x 1 x 1 voxels")
+    assert "undeformed" not in said.text, said.text
     assert shown.any()
 
 
