@@ -6,6 +6,7 @@
 
 #include <pqObjectBuilder.h>
 #include <pqPipelineSource.h>
+#include <pqUndoStack.h>
 
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
@@ -18,12 +19,19 @@ namespace brainshift
 {
 namespace
 {
-void open(pqPipelineSource* source)
+void open(pqPipelineSource* source, bool isRedone)
 {
   const char* name = vtkSMPropertyHelper(source->getProxy(), "FileName").GetAsString();
   const std::string file = name ? name : "";
-  pqApplicationCore::instance()->getObjectBuilder()->destroy(source);
-  callPython("brainshift.openscene", "open_in_window", file);
+  {
+    SCOPED_UNDO_EXCLUDE(); // undone, it would open the scene again
+    pqApplicationCore::instance()->getObjectBuilder()->destroy(source);
+  }
+  if (!isRedone)
+  {
+    SCOPED_UNDO_SET("Open scene");
+    callPython("brainshift.openscene", "open_in_window", file);
+  }
 }
 }
 
@@ -39,8 +47,11 @@ void SlicerScenes::openSoon(pqPipelineSource* source)
   if (std::strcmp(source->getProxy()->GetXMLName(), "SlicerSceneReader") == 0 &&
     !pqApplicationCore::instance()->isLoadingState())
   {
+    // What Redo brings back has opened its scene before.
+    const pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
+    const bool isRedone = stack && (stack->getInUndo() || stack->getInRedo());
     // Once File > Open has named the file.
-    QTimer::singleShot(0, source, [source] { open(source); });
+    QTimer::singleShot(0, source, [source, isRedone] { open(source, isRedone); });
   }
 }
 }

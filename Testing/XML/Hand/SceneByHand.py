@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that File > Open of a scene of 3D Slicer puts its things into the pipeline by their names,
-bent as in Slicer, and leaves no source for the scene itself; that what is not opened is a warning;
-and that a file that is no scene leaves the pipeline as it was.
+bent as in Slicer, in one step to undo, and leaves no source for the scene itself; that what is not
+opened is a warning; and that a file that is no scene leaves the pipeline as it was.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import numpy
@@ -37,6 +37,17 @@ def a_scene_opens():
     assert numpy.abs(places - of_rows(TURN, PLACES)).max() < 1e-3
 
 
+def opening_is_one_step():
+    labels = window.undo_labels()
+    assert labels[:2] == ["First look", "Open scene"], labels
+    window.action("Undo")
+    window.action("Undo")
+    window.until(lambda: not names(), "the things of the scene are gone")
+    window.action("Redo")
+    window.action("Redo")
+    window.until(lambda: names() == ["Head", "Marks", "Marks at rest"], "they are there again")
+
+
 def no_scene_leaves_all_as_it_was():
     before = names()
     with open(scratch("damaged.mrml"), "w") as file:
@@ -49,6 +60,7 @@ def no_scene_leaves_all_as_it_was():
 
 def play():
     yield (a_scene_opens,)
+    yield (opening_is_one_step,)
     yield (no_scene_leaves_all_as_it_was,)
 
 
