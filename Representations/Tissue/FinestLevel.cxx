@@ -52,8 +52,10 @@ bool FinestLevel::draw(GpuTask& gpu, TissueRequest& tissue, const MemoryNeed& ne
   }
   const std::size_t remarks = gpu.remarks.size();
   const int longest = vtkTextureObject::GetMaximumTextureSize3D(gpu.window);
-  this->Problem =
-    this->Problem.empty() ? textureProblem(gpu.window, whole.dimensions) : this->Problem;
+  if (this->Problem.empty() && glm::any(glm::greaterThan(whole.dimensions, glm::ivec3(longest))))
+  {
+    this->Problem = textureProblem(gpu.window, whole.dimensions); // level 0 joins voxels, too
+  }
   for (int level = this->Level;; ++level)
   {
     const glm::ivec3 joined =
