@@ -14,8 +14,9 @@ LOADED = re.compile(r'<(?:script|img|iframe)[^>]*\bsrc="?https?:|<link[^>]*rel="
 
 
 def build(folder):
+    # Not --quiet: it hides warnings from --strict, too.
     return subprocess.run(
-        ["mkdocs", "build", "--strict", "--quiet", "--config-file", CHECKOUT / "mkdocs.yml",
+        ["mkdocs", "build", "--strict", "--config-file", CHECKOUT / "mkdocs.yml",
          "--site-dir", folder], capture_output=True, text=True, check=False)
 
 
