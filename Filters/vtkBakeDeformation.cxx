@@ -5,6 +5,7 @@
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/LabelTable.h"
+#include "Common/SharedArray.h"
 #include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Resample.h"
@@ -138,6 +139,7 @@ int vtkBakeDeformation::RequestData(
     { geometryOf(volume, lattice.grid, extent, inputExtent, false), backward, reading, proceed });
   bakeArrays(input->GetCellData(), output->GetCellData(),
     { geometryOf(volume, lattice.grid, extent, inputExtent, true), backward, reading, proceed });
+  SharedArrays().share(output->GetPointData());
   return 1;
 }
 

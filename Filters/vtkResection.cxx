@@ -3,8 +3,8 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/SharedArray.h"
 #include "Common/WorldAxes.h"
-#include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/Resection.h"
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/Segmentation.h"
+#include "Common/SharedArray.h"
 
-#include "Filters/Attached/CarriedArray.h"
+#include "Filters/Attached/CarriedGrid.h"
 #include "Filters/Attached/MaskImage.h"
 
 #include "vtkDataObject.h"

@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/SharedArray.h"
 #include "Common/WorldAxes.h"
 #include "Formats/Volumes/PlacedVolume.h"
 
@@ -488,6 +489,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   }
   attachMeaning(shown, this->Stored->header());
   attachFacts(this->Stored->header(), shown);
+  brainshift::SharedArrays().share(shown->GetPointData());
   this->rememberLast(information);
   return 1;
 }

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Attached/CarriedArray.h"
+#include "Common/SharedArray.h"
 
-#include "Common/ImageGrid.h"
-#include "Common/Numbers.h"
+#include "Common/Parallel.h"
 
 #include "vtkCharArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
 #include "vtkLongArray.h"
 #include "vtkLongLongArray.h"
-#include "vtkNew.h"
 #include "vtkShortArray.h"
 #include "vtkSignedCharArray.h"
+#include "vtkTypeTraits.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnsignedIntArray.h"
 #include "vtkUnsignedLongArray.h"
@@ -22,6 +20,11 @@
 #include "vtkUnsignedShortArray.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -29,6 +32,120 @@ namespace brainshift
 {
 namespace
 {
+enum class Counted
+{
+  All,   // but NaN
+  Finite // neither NaN nor infinite
+};
+constexpr int CountedKinds = 2;
+
+// The range of each of C components of interleaved numbers, as VTK finds it: reversed where no
+// number counts.
+template <typename T, int C>
+struct Ranges
+{
+  std::array<T, C> least;
+  std::array<T, C> greatest;
+
+  Ranges()
+  {
+    this->least.fill(vtkTypeTraits<T>::Max());
+    this->greatest.fill(vtkTypeTraits<T>::Min());
+  }
+};
+
+template <Counted Kind, typename T>
+bool counts(T value)
+{
+  if constexpr (Kind == Counted::Finite && std::numeric_limits<T>::has_infinity)
+  {
+    return std::abs(value) <= std::numeric_limits<T>::max();
+  }
+  return true;
+}
+
+// Comparisons with NaN are false.
+template <Counted Kind, typename T>
+void widen(T value, T& least, T& greatest)
+{
+  const bool counted = counts<Kind>(value);
+  least = counted && value < least ? value : least;
+  greatest = counted && value > greatest ? value : greatest;
+}
+
+// Of the tuples `first` up to, but not including, `last`.
+template <Counted Kind, int C, typename T>
+Ranges<T, C> rangesOfPiece(const T* values, std::int64_t first, std::int64_t last)
+{
+  constexpr int laneCount = 16 * C; // independent of each other: the compiler makes them vectors
+  Ranges<T, laneCount> lanes;
+  const T* value = values + C * first;
+  const T* const end = values + C * last;
+  for (; end - value >= laneCount; value += laneCount)
+  {
+    for (int i = 0; i < laneCount; ++i)
+    {
+      widen<Kind>(value[i], lanes.least[i], lanes.greatest[i]);
+    }
+  }
+  for (int i = 0; value + i < end; ++i)
+  {
+    widen<Kind>(value[i], lanes.least[i], lanes.greatest[i]);
+  }
+  Ranges<T, C> ranges;
+  for (int i = 0; i < laneCount; ++i)
+  {
+    ranges.least[i % C] = std::min(ranges.least[i % C], lanes.least[i]);
+    ranges.greatest[i % C] = std::max(ranges.greatest[i % C], lanes.greatest[i]);
+  }
+  return ranges;
+}
+
+template <Counted Kind, int C, typename T>
+void findRanges(const T* values, std::int64_t tuples, double* found)
+{
+  constexpr std::int64_t grain = 1 << 20; // fewer are read faster than a thread starts
+  Ranges<T, C> ranges;
+  std::mutex mutex;
+  parallelFor(0, tuples, grain, [&](std::int64_t first, std::int64_t last) {
+    const Ranges<T, C> piece = rangesOfPiece<Kind, C>(values, first, last);
+    const std::lock_guard<std::mutex> lock(mutex);
+    for (int i = 0; i < C; ++i)
+    {
+      ranges.least[i] = std::min(ranges.least[i], piece.least[i]);
+      ranges.greatest[i] = std::max(ranges.greatest[i], piece.greatest[i]);
+    }
+  });
+  for (int i = 0; i < C; ++i)
+  {
+    found[2 * i] = static_cast<double>(ranges.least[i]);
+    found[2 * i + 1] = static_cast<double>(ranges.greatest[i]);
+  }
+}
+
+// False for numbers of components that no volume has.
+template <Counted Kind, typename T>
+bool findRanges(const T* values, std::int64_t tuples, int components, double* found)
+{
+  switch (components)
+  {
+    case 1:
+      findRanges<Kind, 1>(values, tuples, found);
+      return true;
+    case 2:
+      findRanges<Kind, 2>(values, tuples, found);
+      return true;
+    case 3:
+      findRanges<Kind, 3>(values, tuples, found);
+      return true;
+    case 4:
+      findRanges<Kind, 4>(values, tuples, found);
+      return true;
+    default:
+      return false;
+  }
+}
+
 // Looks like an ordinary array of type Base to everybody.
 template <typename Base>
 class SharedArray : public Base
@@ -52,28 +169,52 @@ protected:
     double* ranges, const unsigned char* ghosts, unsigned char ghostsToSkip) override
   {
     return ghosts ? this->Base::ComputeScalarRange(ranges, ghosts, ghostsToSkip)
-                  : this->kept(ranges, &vtkDataArray::GetRange);
+                  : this->template give<Counted::All>(ranges, &vtkDataArray::GetRange);
   }
   bool ComputeFiniteScalarRange(
     double* ranges, const unsigned char* ghosts, unsigned char ghostsToSkip) override
   {
     return ghosts ? this->Base::ComputeFiniteScalarRange(ranges, ghosts, ghostsToSkip)
-                  : this->kept(ranges, &vtkDataArray::GetFiniteRange);
+                  : this->template give<Counted::Finite>(ranges, &vtkDataArray::GetFiniteRange);
   }
 
 private:
   using RangeOf = void (vtkDataArray::*)(double[2], int);
 
-  bool kept(double* ranges, RangeOf rangeOf)
+  template <Counted Kind>
+  bool give(double* ranges, RangeOf rangeOf)
   {
-    for (int component = 0; component < this->GetNumberOfComponents(); ++component)
+    if (auto* shared = dynamic_cast<SharedArray*>(this->Source.Get()))
     {
-      (this->Source->*rangeOf)(ranges + 2 * component, component);
+      return shared->template give<Kind>(ranges, rangeOf);
     }
+    KnownRanges& known = this->Known[static_cast<int>(Kind)];
+    const vtkMTimeType time = std::max(this->GetMTime(), this->Source->GetMTime());
+    if (known.time != time)
+    {
+      const int components = this->GetNumberOfComponents();
+      known.ranges.resize(2 * static_cast<std::size_t>(components));
+      if (!findRanges<Kind>(
+            this->GetPointer(0), this->GetNumberOfTuples(), components, known.ranges.data()))
+      {
+        for (int i = 0; i < components; ++i)
+        {
+          (this->Source->*rangeOf)(known.ranges.data() + 2 * static_cast<std::size_t>(i), i);
+        }
+      }
+      known.time = time;
+    }
+    std::copy(known.ranges.begin(), known.ranges.end(), ranges);
     return true;
   }
 
+  struct KnownRanges
+  {
+    vtkMTimeType time = 0;
+    std::vector<double> ranges;
+  };
   vtkSmartPointer<vtkDataArray> Source; // owns the numbers
+  std::array<KnownRanges, CountedKinds> Known;
 };
 
 // Such an array, which keeps its source; the source itself if its memory layout is unusual.
@@ -115,8 +256,6 @@ vtkSmartPointer<vtkDataArray> sharedOver(vtkDataArray* source)
       return source;
   }
 }
-
-constexpr int GridNumbers = 18;
 }
 
 vtkSmartPointer<vtkDataArray> sharedAs(const char* name, vtkDataArray* source)
@@ -172,37 +311,5 @@ void SharedArrays::share(vtkDataSetAttributes* attributes)
     attributes->AddArray(entry.shared); // takes the place of the array of this name
   }
   this->Entries = std::move(entries);
-}
-
-void attachGrid(vtkFieldData* fields, const char* name, const Grid& grid)
-{
-  vtkNew<vtkDoubleArray> numbers;
-  numbers->SetName(name);
-  numbers->SetNumberOfComponents(GridNumbers);
-  numbers->SetNumberOfTuples(1);
-  const glm::dvec3 sides(grid.dimensions);
-  const std::array<double, 15> box = boxOf(grid);
-  std::copy(box.begin(), box.end(), std::copy_n(&sides.x, 3, numbers->GetPointer(0)));
-  fields->AddArray(numbers);
-}
-
-bool readGrid(vtkFieldData* fields, const char* name, Grid& grid)
-{
-  vtkDataArray* numbers = fields->GetArray(name);
-  if (!numbers || numbers->GetNumberOfComponents() != GridNumbers ||
-    numbers->GetNumberOfTuples() != 1)
-  {
-    return false;
-  }
-  double stored[GridNumbers];
-  numbers->GetTuple(0, stored);
-  constexpr double mostPoints = 1 << 30; // an integer holds it
-  if (!std::all_of(stored, stored + 3, [](double side) { return isWhole(side, 1, mostPoints); }))
-  {
-    return false;
-  }
-  grid.dimensions = glm::ivec3(glm::dvec3(stored[0], stored[1], stored[2]));
-  setBox(grid, stored + 3);
-  return problemOfGrid(grid).empty();
 }
 }
