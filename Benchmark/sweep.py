@@ -19,7 +19,6 @@ import numpy
 STEP_MM = 0.5
 SIDES = (94, 107, 107)  # points along z, y, x
 LANDMARKS = 60
-MARGIN_MM = 12.0  # of the MR around the sweep
 PARTS = ("place", "move", "lesion", "scatter", "echo", "gain", "speckle", "noise", "landmarks")
 
 
@@ -411,21 +410,11 @@ class Sweep:
         self.rest = self.world(measured - self.moved[chosen])
 
     def mr(self, contrast):
-        """The MR around the sweep, on the grid of the head: values and affine."""
+        """The MR of the whole head, on its grid: values and affine."""
         head, knobs = self.head, self.knobs
-        corners = self.world(numpy.array(numpy.meshgrid(*[(0, 1)] * 3)).reshape(3, -1).T
-                             * 2 * self.centre)
-        margin = MARGIN_MM / numpy.linalg.norm(head.affine[:3, :3], axis=0)
-        points = head.points(corners)
-        low = numpy.maximum(0, numpy.floor(points.min(0) - margin)).astype(int)
-        high = numpy.ceil(points.max(0) + margin)
-        high = numpy.minimum(head.values.shape[::-1], high).astype(int)
-        crop = tuple(slice(a, b) for a, b in zip(low[::-1], high[::-1]))
-        affine = head.affine.copy()
-        affine[:3, 3] += head.affine[:3, :3] @ low
-        values, brain = head.values[crop], head.mask[crop]
-        index = numpy.stack(numpy.meshgrid(*[numpy.arange(n) for n in values.shape],
-                                           indexing="ij")[::-1], -1)
+        values, brain, affine = head.values, head.mask, head.affine
+        index = numpy.stack(numpy.meshgrid(*[numpy.arange(n, dtype=numpy.float32)
+                                             for n in values.shape], indexing="ij")[::-1], -1)
         local = (index @ affine[:3, :3].T + affine[:3, 3] - self.affine[:3, 3]) @ self.axes
         random = numpy.random.default_rng((len(contrast), int(1e6 * self.lesion_radius)))
         away = numpy.linalg.norm((local - self.lesion_at + random.normal(size=3) * 1.5)

@@ -195,6 +195,10 @@ constexpr double FinerVolume = 0.8;
 constexpr double LeastTissue = 0.25; // fraction of a volume that is taken for tissue
 constexpr float Air = 0.05f;         // fraction of the range of values
 
+// Between the middles of a fan and of the tissue; less tells no direction. On two heads it is 43 mm
+// or more.
+constexpr double LeastInwardsMm = 20.0;
+
 // The spacing of a level, raised until its number of samples is allowed.
 double spacingOf(const RefinementLevel& level, const Grid& rest, double tissueFraction)
 {
@@ -233,6 +237,36 @@ double tissueFractionOf(const std::vector<float>& values)
   const auto isTissue = [&](float value) { return range.fraction(value) > Air; };
   const double count = static_cast<double>(std::count_if(values.begin(), values.end(), isTissue));
   return std::max(LeastTissue, count / std::max<std::size_t>(1, values.size()));
+}
+
+// The tissue of a volume, on blocks of about 4 mm.
+Mask tissueOf(const Volume& volume)
+{
+  constexpr double CoarseMm = 4.0;
+  const glm::ivec3 every =
+    glm::max(glm::ivec3(glm::round(CoarseMm / volume.grid.spacing)), glm::ivec3(1));
+  Mask tissue;
+  tissue.grid = blocksOf(volume.grid, every);
+  tissue.inside.reserve(tissue.grid.count());
+  std::vector<float> some;
+  some.reserve(tissue.grid.count());
+  const glm::ivec3 sides = tissue.grid.dimensions;
+  for (int k = 0; k < sides.z; ++k)
+  {
+    for (int j = 0; j < sides.y; ++j)
+    {
+      for (int i = 0; i < sides.x; ++i)
+      {
+        some.push_back(volume.values[volume.grid.offset(i * every.x, j * every.y, k * every.z)]);
+      }
+    }
+  }
+  const Range range = rangeOf(some);
+  for (const float value : some)
+  {
+    tissue.inside.push_back(range.fraction(value) > Air ? 1 : 0);
+  }
+  return tissue;
 }
 
 double boxVolume(const Grid& grid)
@@ -284,14 +318,17 @@ ComparedRegion::ComparedRegion(const RegisteredPair& pair, const RefinementPlan&
 {
 }
 
-void ComparedRegion::find(const Volume& reference, const Grid& lattice)
+void ComparedRegion::find(const RegisteredPair& pair, const Grid& lattice)
 {
-  this->Fan = sweptRegion(reference);
+  this->Fan = sweptRegion(pair.reference);
   const double voxels = static_cast<double>(
     std::count(this->Fan.inside.begin(), this->Fan.inside.end(), static_cast<char>(1)));
   this->BoxMm3 = boxVolume(lattice);
   this->FanMm3 = std::min(pointVolume(this->Fan.grid) * voxels, this->BoxMm3);
   this->Middle = middleOf(this->Fan);
+  const glm::dvec3 inwards = middleOf(tissueOf(pair.rest)) - this->Middle;
+  const double away = glm::length(inwards);
+  this->Beam = away > LeastInwardsMm ? inwards / away : glm::dvec3(0.0);
 }
 
 double ComparedRegion::spacingMm(const RefinementLevel& level) const
@@ -337,6 +374,7 @@ PyramidLevel::PyramidLevel(const RegisteredPair& pair, const ComparedRegion& reg
   const RefinementLevel& level, const Lattice& lattice)
   : Pair(pair)
   , Fan(region.fan())
+  , Beam(region.beam())
   , Compares(level.metric)
   , IsQuick(level.isQuick)
   , SpacingMm(region.spacingMm(level))
@@ -402,6 +440,7 @@ void PyramidLevel::weighReference()
 
 void PyramidLevel::makeComparison()
 {
+  this->Volumes.beam = this->Beam;
   this->Compared = this->Compares->make(std::move(this->Volumes), this->Over);
   this->Compared->setQuick(this->IsQuick);
 }

@@ -33,14 +33,21 @@ public:
   /** Whether the fan is known, or there is none. */
   bool isFound() const { return !this->Limits || !this->Fan.inside.empty(); }
 
-  /** Finds the fan of the reference; it takes as long as a step. */
-  void find(const Volume& reference, const Grid& lattice);
+  /** Finds the fan of the reference and its beam; it takes as long as a step. */
+  void find(const RegisteredPair& pair, const Grid& lattice);
 
   /** The voxels inside the fan; null: there is none. */
   const Mask* fan() const { return this->Fan.inside.empty() ? nullptr : &this->Fan; }
 
   /** The middle of the fan (mm, world), or of the volume. */
   glm::dvec3 middle() const { return this->Middle; }
+
+  /**
+   * The direction of the ultrasound beam (world, of length 1): from the middle of the fan to that
+   * of the volume's tissue, because a probe on the brain looks inwards. 0: the two are too near
+   * each other to tell it, as in a volume that was cut around the fan.
+   */
+  glm::dvec3 beam() const { return this->Beam; }
 
   double spacingMm(const RefinementLevel& level) const;
 
@@ -69,6 +76,7 @@ private:
   std::optional<FanLimits> Limits;
   Mask Fan;
   glm::dvec3 Middle{ 0.0 };
+  glm::dvec3 Beam{ 0.0 };
   double FanMm3 = 0.0; // of the volume's box, at most
   double BoxMm3 = 0.0; // of the lattice
 };
@@ -112,6 +120,7 @@ private:
 
   const RegisteredPair& Pair;
   const Mask* Fan;
+  glm::dvec3 Beam;
   const Metric* Compares;
   bool IsQuick;
   double SpacingMm;

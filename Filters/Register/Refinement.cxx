@@ -47,7 +47,7 @@ const RefinementProgress& Refinement::step()
   }
   if (!this->Region.isFound())
   {
-    this->Region.find(this->Pair.reference, this->State.start.grid);
+    this->Region.find(this->Pair, this->State.start.grid);
     this->State.setStiffness(this->Region.stiffness());
   }
   else if (!this->Here)

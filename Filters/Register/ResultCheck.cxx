@@ -43,7 +43,7 @@ bool ResultCheck::step()
   }
   if (!this->Region.isFound())
   {
-    this->Region.find(this->Pair.reference, this->Result.grid);
+    this->Region.find(this->Pair, this->Result.grid);
   }
   else if (!this->Level || !this->Level->isPrepared())
   {

@@ -26,6 +26,17 @@ struct LevelVolumes
   Volume reference;
   Volume restWeights;      ///< 1 where the volume counts, else 0
   Volume referenceWeights; ///< 1 where the reference counts, else 0
+
+  /** Where the probe of an ultrasound reference looks: world, of length 1; 0: it is not known. */
+  glm::dvec3 beam{ 0.0 };
+
+  // An echo begins where its edge is, and rings on behind it: its middle is too deep. So what is
+  // compared is how both rise along the beam, for each mm.
+  std::vector<float> echoRise() const { return riseAlong(this->reference, this->beam); }
+  std::vector<float> edgeRise() const
+  {
+    return riseAlong({ this->rest.grid, gradientLength(this->rest) }, this->beam);
+  }
 };
 
 /** The cost of a displacement, and its derivatives. */

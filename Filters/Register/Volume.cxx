@@ -408,7 +408,11 @@ Range rangeOf(const std::vector<float>& values)
   return found.high > found.low ? found : Range{ found.low, found.low + 1.0f };
 }
 
-std::vector<float> gradientLength(const Volume& volume)
+namespace
+{
+// A number for each point, from the gradient there (for each mm along the grid's axes).
+template <typename Number>
+std::vector<float> fromGradients(const Volume& volume, const Number& number)
 {
   const Grid& grid = volume.grid;
   std::vector<float> result(volume.values.size());
@@ -430,11 +434,24 @@ std::vector<float> gradientLength(const Volume& volume)
                             volume.values[grid.offset(low.x, low.y, low.z)]) /
               static_cast<float>(grid.spacing[axis] * (high[axis] - low[axis]));
           }
-          result[grid.offset(i, j, k)] = glm::length(slope);
+          result[grid.offset(i, j, k)] = number(slope);
         }
       }
     }
   });
   return result;
+}
+}
+
+std::vector<float> gradientLength(const Volume& volume)
+{
+  return fromGradients(volume, [](const glm::vec3& slope) { return glm::length(slope); });
+}
+
+std::vector<float> riseAlong(const Volume& volume, const glm::dvec3& direction)
+{
+  const glm::vec3 along(glm::transpose(volume.grid.direction) * direction);
+  return fromGradients(
+    volume, [&](const glm::vec3& slope) { return std::max(0.0f, glm::dot(slope, along)); });
 }
 }

@@ -122,6 +122,13 @@ BRAINSHIFT_DEFORMATION_EXPORT void boxSum(Volume& volume, const glm::ivec3& radi
 /** The length of the gradient at each point, for each mm. */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> gradientLength(const Volume& volume);
 
+/**
+ * How steeply the values rise at each point along a direction (world, of length 1), for each mm; 0
+ * where they fall.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> riseAlong(
+  const Volume& volume, const glm::dvec3& direction);
+
 /** The conditions for a weight of 1; elsewhere it is 0. */
 struct Region
 {

@@ -54,6 +54,7 @@ brainshift_add_gtest(ElectrodesTest
 brainshift_add_gtest(RegisterTest
   SOURCES
     Register/AlignmentTest.cxx
+    Register/BeamTest.cxx
     Register/BlockCheckTest.cxx
     Register/RefinementTest.cxx
     Register/SimilarityTest.cxx

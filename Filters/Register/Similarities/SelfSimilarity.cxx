@@ -201,14 +201,25 @@ float forceOf(
   return total[0];
 }
 
-// The numbers of each point of a volume; with `Images` 2, also those of its gradient's length.
-template <int Images>
-std::vector<float> numbersOf(const Volume& volume)
+// Where the two volumes have edges.
+std::vector<float> edgesOf(const LevelVolumes& level, bool isReference)
 {
+  if (level.beam == glm::dvec3(0.0))
+  {
+    return gradientLength(isReference ? level.reference : level.rest);
+  }
+  return isReference ? level.echoRise() : level.edgeRise();
+}
+
+// The numbers of each point of a volume; with `Images` 2, also those of its edges.
+template <int Images>
+std::vector<float> numbersOf(const LevelVolumes& level, bool isReference)
+{
+  const Volume& volume = isReference ? level.reference : level.rest;
   std::vector<float> numbers = selfSimilarity(volume);
   if constexpr (Images == 2)
   {
-    const std::vector<float> more = selfSimilarity({ volume.grid, gradientLength(volume) });
+    const std::vector<float> more = selfSimilarity({ volume.grid, edgesOf(level, isReference) });
     std::vector<float> both(2 * numbers.size());
     const std::size_t points = volume.values.size();
     for (std::size_t i = 0; i < points; ++i)
@@ -297,11 +308,11 @@ public:
   {
     if (this->Reference.empty())
     {
-      this->Reference = numbersOf<Images>(this->Level.reference);
+      this->Reference = numbersOf<Images>(this->Level, true);
     }
     else if (this->Rest.empty())
     {
-      this->Rest = numbersOf<Images>(this->Level.rest);
+      this->Rest = numbersOf<Images>(this->Level, false);
     }
     else if (!this->Samples)
     {
@@ -402,9 +413,10 @@ constexpr double LastStiffness = 0.5;
 
 namespace
 {
-// A position between points is read from all of them; a gradient, from both sides of its point.
+// A position between points is read from all of them; a gradient, from both sides of its point. An
+// edge is the gradient of a gradient.
 constexpr Support PlainSupport{ SelfSimilaritySupport.along + 1, SelfSimilaritySupport.across + 1 };
-constexpr Support GradientSupport{ PlainSupport.along + 1, PlainSupport.across + 1 };
+constexpr Support EdgeSupport{ PlainSupport.along + 2, PlainSupport.across + 2 };
 }
 
 Descriptor selfSimilarityDescriptor()
@@ -422,9 +434,9 @@ Metric thinSelfSimilarity()
   return { PlainSupport, SelfSimilarity<1, 4>::BytesPerPoint, &made<1, 4> };
 }
 
-Metric thinSelfSimilarityWithGradients()
+Metric thinSelfSimilarityWithEdges()
 {
-  return { GradientSupport, SelfSimilarity<2, 4>::BytesPerPoint, &made<2, 4> };
+  return { EdgeSupport, SelfSimilarity<2, 4>::BytesPerPoint, &made<2, 4> };
 }
 
 Similarity describeSelfSimilarity()

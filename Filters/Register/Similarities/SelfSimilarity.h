@@ -34,11 +34,13 @@ Metric selfSimilarityMetric();
 Metric thinSelfSimilarity();
 
 /**
- * The squared difference of the numbers of both volumes and of those of their gradients' lengths,
- * half each, by a quarter of the samples. Samples count by the steepness of the volume. The quicker
- * part takes half of these, if they are many.
+ * The squared difference of the numbers of both volumes and of those of their edges, half each, by
+ * a quarter of the samples. Edges are the lengths of gradients; where the direction of an
+ * ultrasound beam is known, the rise along it of the reference and of the volume's gradient
+ * lengths. Samples count by the steepness of the volume. The quicker part takes half of these, if
+ * they are many.
  */
-Metric thinSelfSimilarityWithGradients();
+Metric thinSelfSimilarityWithEdges();
 }
 
 #endif

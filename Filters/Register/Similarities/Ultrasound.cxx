@@ -19,13 +19,25 @@ constexpr double SpeckleStiffness = 5.0;
 // Costs of self-similarity differ more between positions than those of LC2.
 constexpr float LocalFitWeight = 2.0f;
 
-constexpr double LeastRivalGain = 0.015;
+constexpr double LeastRivalGain = 0.005;
 
 constexpr double SpacingMm = 1.0;
 constexpr int KeptPositions = 3; // of a search from several starts
 
-const Metric Self = thinSelfSimilarityWithGradients();
+const Metric Self = thinSelfSimilarityWithEdges();
 const Metric LC2 = linearFitWithGradients();
+
+// LC2 explains how echoes rise by how edges do, if the beam is known.
+LevelVolumes risesOf(LevelVolumes level)
+{
+  if (level.beam != glm::dvec3(0.0))
+  {
+    std::vector<float> rise = level.edgeRise();
+    level.reference.values = level.echoRise();
+    level.rest.values = std::move(rise);
+  }
+  return level;
+}
 
 // The weighted mean of both costs. Its quicker part is self-similarity.
 class BothCosts : public Comparison
@@ -33,7 +45,7 @@ class BothCosts : public Comparison
 public:
   BothCosts(LevelVolumes level, const Lattice& lattice)
     : First(Self.make(level, lattice))
-    , Second(LC2.make(std::move(level), lattice))
+    , Second(LC2.make(risesOf(std::move(level)), lattice))
   {
   }
 
@@ -89,7 +101,7 @@ Similarity describeUltrasound()
   result.name = "ultrasound";
   result.label = "Ultrasound";
   result.tooltip = "For a reference that is ultrasound. Compares self-similarity (SSC) of both "
-                   "volumes and of their edges, and LC2. "
+                   "volumes and of their edges as the beam meets them, and LC2 of these. "
                    "The volume moves as a whole before it bends.";
   result.overlapOf = "the ultrasound fan";
   result.plan.levels = { { &Both, SpacingMm, 1.0, true, false, KeptPositions, 1.0, true },

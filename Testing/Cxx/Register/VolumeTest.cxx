@@ -103,6 +103,23 @@ TEST(RegisterVolume, SlopesAreDerivatives)
   EXPECT_TRUE(neighboursOf(volume.grid.dimensions, { 39.0f, 3.0f, 3.0f }).isInside);
 }
 
+TEST(RegisterVolume, ValuesRiseAlongADirection)
+{
+  const glm::dvec3 slope(3.0, -1.0, 2.0); // world
+  const Volume volume =
+    filled(smallGrid(12), [&](const glm::dvec3& at) { return glm::dot(slope, at); });
+  const glm::dvec3 direction = glm::normalize(glm::dvec3(1.0, 1.0, 4.0));
+  const float rise = static_cast<float>(glm::dot(slope, direction));
+  for (const float found : riseAlong(volume, direction))
+  {
+    EXPECT_NEAR(found, rise, 1e-3);
+  }
+  for (const float found : riseAlong(volume, -direction))
+  {
+    EXPECT_EQ(found, 0.0f) << "it falls";
+  }
+}
+
 TEST(RegisterVolume, WeightsShrink)
 {
   const Grid grid = smallGrid();
