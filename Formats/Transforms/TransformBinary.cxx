@@ -211,7 +211,9 @@ void readVariable(
   {
     words[i] = storedNumber<std::int32_t>(bytes.data() + at + 4 * i, isBigEndian);
   }
-  Variable variable{ words[0] - (isBigEndian ? BigEndian : 0), words[1], words[2], words[3],
+  const std::int64_t type = std::int64_t(words[0]) - (isBigEndian ? BigEndian : 0);
+  const bool isKnown = type >= Doubles && type <= Floats; // others may be beyond 32 bits
+  Variable variable{ isKnown ? static_cast<std::int32_t>(type) : -1, words[1], words[2], words[3],
     words[4] };
   requireVariable(variable);
   at += sizeof(Variable);
