@@ -76,7 +76,8 @@ public:
   enum FieldsBetweenType
   {
     Linear = 0, ///< as in ITK; half a cell outside its points a field moves nothing
-    Held = 1,   ///< as 3D Slicer shows them: cubic; outside its points a field moves as at its edge
+    Held = 1, ///< as 3D Slicer shows them: cubic; outside its points a field moves as at its edge,
+              ///< and B-splines fade to zero within two cells
   };
 
   ///@{

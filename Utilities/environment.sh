@@ -79,11 +79,13 @@ apt_install() {
 }
 
 # missing_packages DEBIAN_NUMBER: packages-COMMAND.txt lists what one command needs beside the others,
-# and packages-portable.txt what test --portable does.
+# packages-portable.txt what test --portable does, and packages-engine.txt what fuzz --engine does.
 missing_packages() {
   local lists=("$checkout"/Utilities/packages-{common,"debian-$1"}.txt) wanted
   local own=$checkout/Utilities/packages-${command:-}.txt
-  [[ "${command:-} ${arguments[0]:-}" != "test --portable" ]] || own=$checkout/Utilities/packages-portable.txt
+  case "${command:-} ${arguments[0]:-}" in
+    "test --portable" | "fuzz --engine") own=$checkout/Utilities/packages-${arguments[0]#--}.txt ;;
+  esac
   [[ ! -f $own ]] || lists+=("$own")
   mapfile -t wanted < <(sed 's/#.*//' "${lists[@]}" | tr -s '[:space:]' '\n' | grep . | sort -u)
   comm -23 <(printf '%s\n' "${wanted[@]}") <(

@@ -51,7 +51,8 @@ DICOMTag tagAt(const unsigned char* bytes, const Form& form)
     storedNumber<std::uint16_t>(bytes + 2, form.isBig);
 }
 
-// The attributes by which Siemens tells mosaics, in whatever block, and the names of blocks.
+// The attributes by which Siemens and United Imaging tell mosaics, in whatever block, and the names
+// of blocks.
 bool mayTellMosaic(DICOMTag tag)
 {
   const DICOMTag group = tag >> 16;
@@ -60,7 +61,8 @@ bool mayTellMosaic(DICOMTag tag)
   const DICOMTag inBlock = element & 0xff;
   return (group == 0x0019 && (isCreator || inBlock == 0x0a)) ||
     (group == 0x0029 && (isCreator || inBlock == 0x10)) ||
-    (group == 0x0051 && (isCreator || inBlock == 0x16));
+    (group == 0x0051 && (isCreator || inBlock == 0x16)) ||
+    (group == 0x0065 && (isCreator || inBlock == 0x51));
 }
 
 class Parser

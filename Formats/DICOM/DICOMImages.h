@@ -124,8 +124,8 @@ struct DICOMFile
   int seriesNumber = 0;
   int columns = 0; ///< of a frame
   int rows = 0;
-  int tiles =
-    1; ///< along each side of the picture of a mosaic, whose frames are its tiles; 1: none
+  /// Across and down the picture of a mosaic, whose frames are its tiles; 1: it is none.
+  glm::ivec2 tiles{ 1 };
   DICOMPixelFormat pixels;
   std::string space;    ///< FrameOfReferenceUID
   std::string sopClass; ///< SOPClassUID

@@ -20,6 +20,7 @@ constexpr DICOMTag Rows = 0x00280010;
 constexpr DICOMTag Columns = 0x00280011;
 constexpr DICOMTag AcquisitionMatrix = 0x00181310;
 
+constexpr DICOMTag ImagePosition = 0x00200032;
 constexpr DICOMTag SpacingBetweenSlices = 0x00180088;
 constexpr const char* WayOut = ". Convert the scanner's files with dcm2niix";
 
@@ -33,6 +34,7 @@ struct PrivateName
 constexpr PrivateName SliceCount{ 0x0019, 0x0a, "SIEMENS MR HEADER" };
 constexpr PrivateName ImageHeader{ 0x0029, 0x10, "SIEMENS CSA HEADER" };
 constexpr PrivateName TypeText{ 0x0051, 0x16, "SIEMENS MR HEADER" };
+constexpr PrivateName UnitedSlices{ 0x0065, 0x51, "Image Private Header" }; // a sequence
 
 // Its tag in a file. None: the file has no such block.
 std::optional<DICOMTag> tagOf(const DICOMDataSet& set, const PrivateName& name)
@@ -231,10 +233,63 @@ void requireTiles(const DICOMDataSet& set, const DICOMFile& file, double slices)
     throw Problem(std::string("is a mosaic in colours; it must be grey") + WayOut);
   }
 }
+
+// Divides a mosaic of United Imaging, whose slices have a sequence of their own, with a
+// position each. False if the file is none.
+bool cutUnitedMosaic(const DICOMDataSet& set, DICOMFile& file)
+{
+  const std::optional<DICOMTag> tag = tagOf(set, UnitedSlices);
+  const auto found = tag ? set.elements.find(*tag) : set.elements.end();
+  const bool isNamed = plainText(textOf(set, ImageType)).find("VFRAME") != std::string::npos;
+  if (found == set.elements.end() || found->second.items.empty())
+  {
+    throwIfAny(!isNamed ? ""
+                        : std::string("is a mosaic of United Imaging (VFRAME) without the "
+                                      "positions of its slices (the sequence (0065,xx51)), which "
+                                      "anonymizers often remove") +
+          WayOut);
+    return false;
+  }
+  const std::vector<DICOMDataSet>& slices = found->second.items;
+  const int count = static_cast<int>(slices.size());
+  const int across = static_cast<int>(std::ceil(std::sqrt(count)));
+  const glm::ivec2 tiles(across, (count + across - 1) / across);
+  if (file.frames.size() != 1 || file.columns % tiles.x != 0 || file.rows % tiles.y != 0 ||
+    file.pixels.colors != DICOMColors::None)
+  {
+    throw Problem(joined("is a mosaic of ", count, " slices in ", file.frames.size(), " frames of ",
+      file.columns, " x ", file.rows, " pixels; it must be one grey frame that ", tiles.x, " x ",
+      tiles.y, " tiles divide", WayOut));
+  }
+  DICOMFrame tile = file.frames.front();
+  tile.locationMm.reset();
+  tile.isPlaced = true;
+  file.tiles = tiles;
+  file.columns /= tiles.x;
+  file.rows /= tiles.y;
+  file.frames.clear();
+  for (const DICOMDataSet& slice : slices)
+  {
+    const std::vector<double> place = decimalsOf(slice, ImagePosition);
+    if (place.size() != 3)
+    {
+      throw Problem(joined("is a mosaic whose slice ", file.frames.size() + 1,
+        " has no ImagePositionPatient in (0065,xx51)", WayOut));
+    }
+    tile.position = { place[0], place[1], place[2] };
+    tile.frame = static_cast<int>(file.frames.size());
+    file.frames.push_back(tile);
+  }
+  return true;
+}
 }
 
 void cutMosaic(const DICOMDataSet& set, DICOMFile& file)
 {
+  if (cutUnitedMosaic(set, file))
+  {
+    return;
+  }
   const double slices = countOfTiles(set);
   if (!isMosaic(set, slices))
   {
@@ -250,7 +305,7 @@ void cutMosaic(const DICOMDataSet& set, DICOMFile& file)
   const glm::dvec3 step = stepOfTiles(set, tile);
   const int pictureColumns = file.columns;
   const int pictureRows = file.rows;
-  file.tiles = tiles;
+  file.tiles = glm::ivec2(tiles);
   file.columns /= tiles;
   file.rows /= tiles;
   // The position is that of a slice as large as the picture, with the centre of the first slice.

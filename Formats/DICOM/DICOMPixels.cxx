@@ -341,9 +341,9 @@ void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int 
 DICOMFile pictureOf(const DICOMFile& mosaic)
 {
   DICOMFile picture = mosaic;
-  picture.columns *= mosaic.tiles;
-  picture.rows *= mosaic.tiles;
-  picture.tiles = 1;
+  picture.columns *= mosaic.tiles.x;
+  picture.rows *= mosaic.tiles.y;
+  picture.tiles = glm::ivec2(1);
   picture.frames.resize(1);
   picture.frames.front().frame = 0;
   return picture;
@@ -355,7 +355,7 @@ void readTiles(const DICOMFile& file, const std::vector<DICOMTarget>& targets, i
   const auto bytes = static_cast<std::size_t>(vtkDataArray::GetDataTypeSize(type));
   std::vector<char> numbers(pixelsOf(picture) * bytes);
   readDICOMPixels(picture, { { &picture.frames.front(), numbers.data() } }, type);
-  const auto tiles = static_cast<std::size_t>(file.tiles);
+  const auto tiles = static_cast<std::size_t>(file.tiles.x);
   const std::size_t rowBytes = bytes * static_cast<std::size_t>(file.columns);
   for (const DICOMTarget& target : targets)
   {
@@ -397,7 +397,7 @@ int storedTypeOf(const DICOMPixelFormat& pixels)
 
 void requirePixelData(const DICOMFile& file)
 {
-  if (file.tiles > 1)
+  if (file.tiles != glm::ivec2(1))
   {
     requirePixelData(pictureOf(file));
     return;
@@ -422,7 +422,7 @@ void requirePixelData(const DICOMFile& file)
 
 void readDICOMPixels(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
-  if (file.tiles > 1)
+  if (file.tiles != glm::ivec2(1))
   {
     readTiles(file, targets, type);
   }

@@ -123,7 +123,7 @@ std::vector<Part> partsOf(
   {
     const DICOMTarget target{ &frames[z], image->GetScalarPointer(0, 0, static_cast<int>(z)) };
     const DICOMFile& file = folder.files[frames[z].file];
-    const bool isPlain = file.pixels.isPlain && file.tiles == 1;
+    const bool isPlain = file.pixels.isPlain && file.tiles == glm::ivec2(1);
     const auto [known, isNew] = packed.insert({ frames[z].file, parts.size() });
     if (isPlain || isNew)
     {
@@ -432,8 +432,9 @@ double DICOMVolume::storedBytes(const VolumeHeader& header) const
   const DICOMFile& file = this->Folder.files[this->Stack.volumes.front().front().file];
   const double numberBytes = vtkDataArray::GetDataTypeSize(header.storedType) * header.components;
   double images = static_cast<double>(this->Stack.volumes.front().size());
-  images +=
-    file.pixels.isPlain && file.tiles == 1 ? 0.0 : 2.0 * static_cast<double>(file.frames.size());
+  images += file.pixels.isPlain && file.tiles == glm::ivec2(1)
+    ? 0.0
+    : 2.0 * static_cast<double>(file.frames.size());
   const bool isResampled = !this->Stack.resampling.slices.empty();
   return numberBytes * images * file.columns * file.rows +
     (isResampled ? VolumeFile::storedBytes(header) : 0.0);

@@ -2,6 +2,7 @@
 #include "Formats/Fields/FieldFile.h"
 
 #include "Formats/Files/Text.h"
+#include "Formats/Files/WayOut.h"
 #include "Formats/Volumes/OutgoingVolume.h"
 
 namespace brainshift
@@ -67,7 +68,9 @@ bool isFieldFile(const std::string& fileName)
 
 void readFieldFile(const std::string& fileName, DirectedField& field)
 {
-  knownFormatOf(fileName).read(fileName, field);
+  const FieldFormat& format = knownFormatOf(fileName);
+  withWayOut("", "copy it again, or write the field anew as .nii.gz, .nrrd or .mha",
+    [&] { format.read(fileName, field); });
 }
 
 void writeFieldFile(const std::string& fileName, const DirectedField& field)

@@ -4,6 +4,7 @@
 #include "Common/Numbers.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Files/WayOut.h"
 #include "Formats/Files/WholeFile.h"
 #include "Formats/Landmarks/Coordsystem.h"
 
@@ -197,7 +198,9 @@ LandmarkList readLandmarkFile(const std::string& fileName, int volume, const Tab
 {
   const Format format = knownFormatOf(fileName);
   LandmarkList list;
-  withBeginning("Landmark file " + fileName + " ", [&] {
+  constexpr const char* OtherFile =
+    "save it again in the program that made it, or as a table (.csv) with columns r, a, s";
+  withWayOut("Landmark file " + fileName + " ", OtherFile, [&] {
     const std::string text = utf8Of(readPlainText(fileName, LongestText), format, list);
     TableRule rule = table;
     const std::optional<ElectrodeFrame> beside = electrodeFrame(fileName, list);

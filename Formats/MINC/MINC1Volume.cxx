@@ -4,10 +4,10 @@
 ///
 /// Their world is RAS, in mm. Whole numbers become real values, slice by slice, as the file says:
 /// the ends of valid_range are image-min and image-max, and what is outside counts as an end.
-#include "Common/Bytes.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/MINC/MINCAxis.h"
+#include "Formats/MINC/NetCDFHeader.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
@@ -22,7 +22,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <system_error>
 #include <type_traits>
 
 namespace brainshift
@@ -124,122 +123,6 @@ std::vector<int> dimensionsOf(int file, int variable)
   std::vector<int> dimensions(static_cast<std::size_t>(count));
   require(nc_inq_vardimid(file, variable, dimensions.data()), "the dimensions of a variable");
   return dimensions;
-}
-
-// Bytes with what fills words of 4.
-double padded(double bytes)
-{
-  return 4.0 * std::ceil(bytes / 4.0);
-}
-
-double bytesOfNumber(int file, nc_type type)
-{
-  std::size_t bytes = 0;
-  require(nc_inq_type(file, type, nullptr, &bytes), "a type");
-  return static_cast<double>(bytes);
-}
-
-double bytesOfAttributes(int file, int variable)
-{
-  int count = 0;
-  require(nc_inq_varnatts(file, variable, &count), "attributes");
-  double bytes = 8.0;
-  for (int i = 0; i < count; ++i)
-  {
-    const std::string name =
-      nameBy([&](char* to) { return nc_inq_attname(file, variable, i, to); }, "an attribute");
-    nc_type type = NC_NAT;
-    std::size_t length = 0;
-    require(nc_inq_att(file, variable, name.c_str(), &type, &length), name);
-    bytes += 12.0 + padded(static_cast<double>(name.size())) +
-      padded(static_cast<double>(length) * bytesOfNumber(file, type));
-  }
-  return bytes;
-}
-
-// The data of a variable, as the header has them.
-struct StoredData
-{
-  double offsetEnd = 0.0; // of the number in the header that says where the data begin, bytes
-  double size = 0.0;      // bytes
-};
-
-// Where the last data end, bytes. They may be in any order, and a gap may be before them.
-double endOfData(const std::string& header, const std::vector<StoredData>& data, bool isLarge)
-{
-  double end = static_cast<double>(header.size());
-  for (const StoredData& one : data)
-  {
-    const auto at = static_cast<std::size_t>(one.offsetEnd) - (isLarge ? 8 : 4);
-    const auto large = storedNumberAt<std::uint64_t>(header, at, true);
-    const auto small = storedNumberAt<std::uint32_t>(header, at, true);
-    if (isLarge ? !large : !small)
-    {
-      throw Problem(joined("ends within its header, after ", header.size(), " bytes"));
-    }
-    const double begin = isLarge ? static_cast<double>(*large) : static_cast<double>(*small);
-    if (begin < static_cast<double>(header.size()))
-    {
-      throw Problem(joined("is damaged: data begin at byte ", begin, ", within its header of ",
-        header.size(), " bytes"));
-    }
-    end = std::max(end, begin + one.size);
-  }
-  return end;
-}
-
-// Bytes that a file has, by its header: netCDF would give zeros for those behind its end.
-double bytesOf(const std::string& fileName, int file, bool isLarge)
-{
-  int dimensions = 0;
-  int variables = 0;
-  int attributes = 0;
-  int unlimited = -1;
-  require(nc_inq(file, &dimensions, &variables, &attributes, &unlimited), "the header");
-  if (unlimited >= 0)
-  {
-    throw Problem(std::string("has a dimension without an end (UNLIMITED)") + Converted);
-  }
-  double bytes = 24.0 + bytesOfAttributes(file, NC_GLOBAL);
-  std::vector<double> sides;
-  for (int i = 0; i < dimensions; ++i)
-  {
-    std::size_t side = 0;
-    const std::string name =
-      nameBy([&](char* to) { return nc_inq_dim(file, i, to, &side); }, "a dimension");
-    sides.push_back(static_cast<double>(side));
-    bytes += 8.0 + padded(static_cast<double>(name.size()));
-  }
-  std::vector<StoredData> data;
-  for (int i = 0; i < variables; ++i)
-  {
-    nc_type type = NC_NAT;
-    const std::string name =
-      nameBy([&](char* to) { return nc_inq_var(file, i, to, &type, nullptr, nullptr, nullptr); },
-        "a variable");
-    double size = bytesOfNumber(file, type);
-    const std::vector<int> axes = dimensionsOf(file, i);
-    for (const int axis : axes)
-    {
-      size *= sides.at(static_cast<std::size_t>(axis));
-    }
-    bytes += 16.0 + padded(static_cast<double>(name.size())) +
-      4.0 * static_cast<double>(axes.size()) + bytesOfAttributes(file, i) + (isLarge ? 8.0 : 4.0);
-    data.push_back({ bytes, size });
-  }
-  return endOfData(readBeginning(fileName, static_cast<std::size_t>(bytes)), data, isLarge);
-}
-
-void requireWhole(const std::string& fileName, int file)
-{
-  const bool isLarge = readBeginning(fileName, 4) == "CDF\x02";
-  const double need = bytesOf(fileName, file, isLarge);
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(fileName, error);
-  if (error || static_cast<double>(size) < need)
-  {
-    throw Problem(joined("has ", size, " bytes; its header announces ", need));
-  }
 }
 
 const std::map<std::string, glm::dvec3> SpaceAxes{ { "xspace", { 1.0, 0.0, 0.0 } },
@@ -495,6 +378,7 @@ void MINC1Volume::readHeader(const std::string& fileName, VolumeHeader& header)
   {
     throw Problem("is not MINC1: it does not begin like a netCDF file");
   }
+  requireWholeNetCDF(fileName);
   const OpenFile file(fileName);
   const std::optional<int> image =
     file.isGood() ? variableNamed(file.get(), "image") : std::nullopt;
@@ -503,7 +387,6 @@ void MINC1Volume::readHeader(const std::string& fileName, VolumeHeader& header)
     throw Problem(file.isGood() ? "is a netCDF file without a variable image, so it is not MINC1"
                                 : "is not MINC1, or is damaged: netCDF cannot open it");
   }
-  requireWhole(fileName, file.get());
   const std::vector<int> imageAxes = dimensionsOf(file.get(), *image);
   if (imageAxes.size() < 3 || imageAxes.size() > MostAxes ||
     std::set<int>(imageAxes.begin(), imageAxes.end()).size() != imageAxes.size())

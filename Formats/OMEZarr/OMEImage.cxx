@@ -287,7 +287,7 @@ OMELevel readLevel(
   const std::string path = textIn(memberOf(dataset, "path"));
   requireInside(path);
   OMELevel level{ readZarrArray(store, keyIn(group, path)), std::vector<double>(rank, 1.0),
-    std::vector<double>(rank, 0.0) };
+    std::vector<double>(rank, 0.0), {} };
   const std::vector<std::int64_t>& shape = level.array.shape;
   if (shape.size() != rank)
   {
@@ -351,7 +351,8 @@ void readLabels(const Json& said, OMEImage& image)
         continue;
       }
       Label& label =
-        labels.try_emplace(*value, Label{ *value, std::to_string(*value) }).first->second;
+        labels.try_emplace(*value, Label{ *value, std::to_string(*value), { 255, 255, 255 }, {} })
+          .first->second;
       readColor(memberOf(entry, "rgba"), label);
       for (const char* name : { "class", "label", "name" }) // the last counts
       {

@@ -87,20 +87,6 @@ double bytesOfVoxel(vtkInformation* input)
       std::max(1, vtkDataArray::GetDataTypeSize(scalars->Get(vtkDataObject::FIELD_ARRAY_TYPE()))));
 }
 
-// What is left out of an input of several times; empty if it has one.
-std::string noteOfTimes(vtkImageData* image, vtkInformation* pipeline)
-{
-  const int times = pipeline ? pipeline->Length(SDDP::TIME_STEPS()) : 0;
-  if (times <= 1)
-  {
-    return {};
-  }
-  vtkInformation* data = image->GetInformation();
-  const bool knowsTime = data->Has(vtkDataObject::DATA_TIME_STEP()) != 0;
-  return joined("The input has ", times, " times; the store has one of them",
-    knowsTime ? joined(", at ", data->Get(vtkDataObject::DATA_TIME_STEP()), " s") : "");
-}
-
 // The grid of all voxels, of which an image has some.
 Grid wholeGridOf(vtkImageData* image, const int whole[6], bool isLPS)
 {
@@ -292,7 +278,7 @@ void vtkOMEZarrWriter::TakeVoxels(OutgoingVolume& volume)
   }
   if (!this->Work->store)
   {
-    const std::string time = noteOfTimes(image, this->GetInputInformation(0, 0));
+    const std::string time = noteOfTimes(image, this->GetInputInformation(0, 0), "store");
     this->Work->warning = warning + (warning.empty() || time.empty() ? "" : ". ") + time;
   }
 }

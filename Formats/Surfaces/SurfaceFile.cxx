@@ -4,6 +4,7 @@
 #include "Common/HostMemory.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Files/WayOut.h"
 #include "Formats/MGH/MGHVolume.h"
 #include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
@@ -71,6 +72,8 @@ namespace
 // Bytes in memory for each byte of a file. In a packed GIFTI file, a byte may become many more,
 // which its reader asks for when it knows how many.
 constexpr double TimesOfSurface = 4.0;
+constexpr const char* OtherSurface =
+  "copy it again, or convert it to GIFTI (.gii), as mris_convert of FreeSurfer does";
 constexpr double TimesOfTracts = 3.5; // the file, its points in ours and in VTK's order, indices
 
 std::vector<std::string> sentences(const std::string& name, const std::vector<std::string>& notes)
@@ -163,7 +166,7 @@ void addValues(const std::string& fileName, Surface& surface, std::vector<std::s
 {
   const std::string name = "File of values " + fileName;
   const std::size_t notes = surface.notes.size();
-  withBeginning(name + " ", [&] {
+  withWayOut(name + " ", OtherSurface, [&] {
     const auto bytes = readFileBytes(fileName, TimesOfSurface, [](double) { return true; });
     const SurfaceFormat* format = formatOfValues(*bytes);
     if (!format)
@@ -274,7 +277,7 @@ void readSurfaceFiles(const SurfaceFiles& files, const FractionDone& fractionDon
 {
   surface = Surface();
   const std::string name = "Surface " + files.fileName;
-  const bool isRead = withBeginning(name + " ", [&] {
+  const bool isRead = withWayOut(name + " ", OtherSurface, [&] {
     const auto bytes = readFileBytes(files.fileName, TimesOfSurface, fractionDone);
     if (bytes)
     {
@@ -293,7 +296,7 @@ void readSurfaceFiles(const SurfaceFiles& files, const FractionDone& fractionDon
       addValues(values, surface, warnings);
     }
   }
-  withBeginning(name + " ", [&] { placeSurface(surface); });
+  withWayOut(name + " ", OtherSurface, [&] { placeSurface(surface); });
   const std::vector<std::string> notes = sentences(name, surface.notes);
   warnings.insert(warnings.end(), notes.begin(), notes.end());
 }
@@ -352,7 +355,9 @@ void readTractFile(const TractSource& source, const FractionDone& fractionDone, 
 {
   tracts = Tracts();
   const std::string name = "Tract file " + source.fileName;
-  withBeginning(name + " ", [&] {
+  constexpr const char* OtherTracts =
+    "copy it again, or convert it to .trk, .tck or .trx in the program that made it";
+  withWayOut(name + " ", OtherTracts, [&] {
     auto bytes =
       tractBytes(source.fileName, [&](double fraction) { return fractionDone(0.4 * fraction); });
     if (bytes)

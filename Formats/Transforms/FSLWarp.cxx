@@ -304,6 +304,7 @@ SplineLink splineOf(const Warp& warp, const NamedImages& images, bool& knowsSide
   }
   SplineLink link;
   link.grid = gridOf(warp.frame.dimensions, fixed.worldFromVoxel * fixedVoxelFromKnot);
+  link.fades = true; // the last knot may lie before the last voxel
   const glm::dmat4 base =
     moving.worldFromFSL * glm::inverse(fixedFromMoving) * glm::inverse(fixed.worldFromFSL);
   link.base = { glm::dmat3(base), glm::dvec3(base[3]) };

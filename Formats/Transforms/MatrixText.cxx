@@ -414,7 +414,7 @@ TransformLink linkOf(const StoredMap& map, const std::string& fileName)
   }
   if (map.type == "Grid_Transform")
   {
-    const std::string& name = valueOf(map.entries, "Displacement_Volume");
+    const std::string name = valueOf(map.entries, "Displacement_Volume");
     const std::filesystem::path folder = std::filesystem::path(fileName).parent_path();
     return withBeginning("needs its Displacement_Volume: ",
       [&] { return gridOf((folder / std::filesystem::path(name)).string()); });

@@ -30,6 +30,19 @@ glm::dvec3 mappedBy(const AffineLink& link, const glm::dvec3& from)
   return link.linear * from + link.offset;
 }
 
+/** The first of the four coefficients along an axis whose splines reach a point; none outside. */
+std::optional<int> firstAround(double at, int side, bool fades)
+{
+  if (fades)
+  {
+    const bool isNear = at > -2.0 && at < side + 1.0; // also rejects NaN
+    return isNear ? std::optional(static_cast<int>(std::floor(at)) - 1) : std::nullopt;
+  }
+  const bool isInside = at >= 1.0 - EdgeOfSpline && at <= side - 2.0 + EdgeOfSpline;
+  return isInside ? std::optional(std::clamp(static_cast<int>(std::floor(at)), 1, side - 3) - 1)
+                  : std::nullopt;
+}
+
 // The sum of cubic B-splines; 0 outside.
 glm::dvec3 bendOf(const SplineLink& link, const glm::dvec3& from)
 {
@@ -39,25 +52,27 @@ glm::dvec3 bendOf(const SplineLink& link, const glm::dvec3& from)
   glm::dvec4 weights[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (!(at[axis] >= 1.0 - EdgeOfSpline && at[axis] <= sides[axis] - 2.0 + EdgeOfSpline))
+    const std::optional<int> found = firstAround(at[axis], sides[axis], link.fades);
+    if (!found)
     {
       return glm::dvec3(0.0);
     }
-    const int cell = std::clamp(static_cast<int>(std::floor(at[axis])), 1, sides[axis] - 3);
-    first[axis] = cell - 1;
-    weights[axis] = splineWeights(at[axis] - cell);
+    first[axis] = *found;
+    weights[axis] = splineWeights(at[axis] - (*found + 1));
   }
+  const glm::ivec3 begin = glm::max(-first, 0); // of the four, those that the grid has
+  const glm::ivec3 end = glm::min(sides - first, 4);
   glm::dvec3 sum(0.0);
-  for (int k = 0; k < 4; ++k)
+  for (int k = begin.z; k < end.z; ++k)
   {
-    for (int j = 0; j < 4; ++j)
+    for (int j = begin.y; j < end.y; ++j)
     {
       const std::size_t row =
-        (static_cast<std::size_t>(first.z + k) * sides.y + first.y + j) * sides.x + first.x;
+        (static_cast<std::size_t>(first.z + k) * sides.y + first.y + j) * sides.x;
       const double weight = weights[2][k] * weights[1][j];
-      for (int i = 0; i < 4; ++i)
+      for (int i = begin.x; i < end.x; ++i)
       {
-        sum += weight * weights[0][i] * link.coefficients[row + i];
+        sum += weight * weights[0][i] * link.coefficients[row + (first.x + i)];
       }
     }
   }
@@ -434,6 +449,10 @@ void holdFields(PointTransform& transform)
     {
       field->between = Between::Held;
     }
+    else if (auto* spline = std::get_if<SplineLink>(&link))
+    {
+      spline->fades = true;
+    }
     else if (auto* inverse = std::get_if<InverseLink>(&link))
     {
       PointTransform other = *inverse->of;
@@ -468,8 +487,9 @@ std::optional<Grid> ownGridOf(const PointTransform& transform)
   {
     if (const auto* spline = std::get_if<SplineLink>(&link))
     {
-      const glm::dvec3 cells(spline->grid.dimensions - 3);
-      return samplesOf(spline->grid, glm::dvec3(1.0), cells, SamplesOfCell);
+      const int beyond = spline->fades ? 2 : -1; // cells outside of the coefficients
+      const glm::dvec3 cells(spline->grid.dimensions - 1 + 2 * beyond);
+      return samplesOf(spline->grid, glm::dvec3(-beyond), cells, SamplesOfCell);
     }
     if (const auto* field = std::get_if<FieldLink>(&link))
     {

@@ -48,13 +48,15 @@ struct LinkGrid
 
 /**
  * ITK's BSplineTransform of order 3: to = base(from) + uniform cubic B-splines. One cell inside the
- * outermost coefficients the splines end; beyond, only the base counts.
+ * outermost coefficients the splines end; beyond, only the base counts. Slicer's fade instead, to
+ * zero two cells outside of them.
  */
 struct SplineLink
 {
   LinkGrid grid;
   std::vector<glm::dvec3> coefficients; ///< mm, one for each point, x fastest
-  AffineLink base; ///< the bulk of ITK 3, or FNIRT's affine map; default: the identity
+  AffineLink base;    ///< the bulk of ITK 3, or FNIRT's affine map; default: the identity
+  bool fades = false; ///< whether those outside of the grid count as 0: Slicer, FNIRT
 };
 
 /** How displacements between the points of a field are found. */
@@ -116,7 +118,7 @@ VTKBRAINSHIFTFORMATS_EXPORT glm::dvec3 mappedBack(
 /** Reverses x and y on both sides: this leads from LPS to RAS and back. */
 VTKBRAINSHIFTFORMATS_EXPORT void reverseXY(PointTransform& transform);
 
-/** Makes all fields of a chain that are Linear Held, as Slicer shows them. */
+/** Makes all fields of a chain that are Linear Held, and splines fade, as Slicer shows them. */
 VTKBRAINSHIFTFORMATS_EXPORT void holdFields(PointTransform& transform);
 
 /** A link for the inverse of a chain. */

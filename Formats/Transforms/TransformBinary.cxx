@@ -5,6 +5,7 @@
 /// taken.
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Transforms/TransformRecord.h"
 
 #include "vtk_hdf5.h"
@@ -64,9 +65,27 @@ private:
   void* Data = nullptr;
 };
 
+// Whether a member is there. A link may lead to any file that the user may read; none is followed.
 bool exists(hid_t group, const std::string& name)
 {
-  return H5Lexists(group, name.c_str(), H5P_DEFAULT) > 0;
+  H5L_info_t link{};
+  if (H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT) < 0)
+  {
+    return false;
+  }
+  throwIfAny(link.type == H5L_TYPE_HARD ? ""
+                                        : "has the member " + shownWords(name) +
+        " as a link to another place or file; write the " + "transform into one file");
+  return true;
+}
+
+// Numbers may be kept in other files, too.
+void requireOwnNumbers(hid_t set, const std::string& name)
+{
+  const Handle made(H5Dget_create_plist(set), H5Pclose);
+  throwIfAny(made.isOpen() && H5Pget_layout(made) != H5D_VIRTUAL && H5Pget_external_count(made) == 0
+      ? ""
+      : "has the numbers of " + name + " in another file; write the transform into one file");
 }
 
 // ITK once wrote Tranform for Transform, and reads both.
@@ -78,7 +97,8 @@ std::string nameIn(hid_t group, const std::string& end)
 std::string readType(hid_t group)
 {
   const Problem problem("has a transform without a type");
-  const Handle set(H5Dopen2(group, "TransformType", H5P_DEFAULT), H5Dclose);
+  const bool isThere = exists(group, "TransformType");
+  const Handle set(isThere ? H5Dopen2(group, "TransformType", H5P_DEFAULT) : hid_t(-1), H5Dclose);
   const Handle stored(set.isOpen() ? H5Dget_type(set) : hid_t(-1), H5Tclose);
   const Handle space(set.isOpen() ? H5Dget_space(set) : hid_t(-1), H5Sclose);
   if (!stored.isOpen() || !space.isOpen() || H5Tget_class(stored) != H5T_STRING ||
@@ -86,6 +106,7 @@ std::string readType(hid_t group)
   {
     throw problem;
   }
+  requireOwnNumbers(set, "TransformType");
   const Handle memory(H5Tcopy(stored), H5Tclose);
   if (H5Tis_variable_str(stored) > 0)
   {
@@ -119,6 +140,10 @@ std::vector<double> readNumbers(hid_t group, const std::string& name)
   const Handle stored(set.isOpen() ? H5Dget_type(set) : hid_t(-1), H5Tclose);
   const Handle space(set.isOpen() ? H5Dget_space(set) : hid_t(-1), H5Sclose);
   const hssize_t count = space.isOpen() ? H5Sget_simple_extent_npoints(space) : -1;
+  if (set.isOpen())
+  {
+    requireOwnNumbers(set, name);
+  }
   if (count < 0 || !stored.isOpen() || H5Tget_class(stored) != H5T_FLOAT)
   {
     throw problem;
@@ -186,7 +211,9 @@ void readVariable(
   {
     words[i] = storedNumber<std::int32_t>(bytes.data() + at + 4 * i, isBigEndian);
   }
-  Variable variable{ words[0] - (isBigEndian ? BigEndian : 0), words[1], words[2], words[3],
+  const std::int64_t type = std::int64_t(words[0]) - (isBigEndian ? BigEndian : 0);
+  const bool isKnown = type >= Doubles && type <= Floats; // others may be beyond 32 bits
+  Variable variable{ isKnown ? static_cast<std::int32_t>(type) : -1, words[1], words[2], words[3],
     words[4] };
   requireVariable(variable);
   at += sizeof(Variable);
@@ -220,8 +247,8 @@ std::vector<TransformRecord> readHDF5Records(const std::string& fileName)
 {
   const Silence silence;
   const Handle file(H5Fopen(fileName.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  const Handle all(
-    file.isOpen() ? H5Gopen2(file, "/TransformGroup", H5P_DEFAULT) : hid_t(-1), H5Gclose);
+  const bool isThere = file.isOpen() && exists(file, "TransformGroup");
+  const Handle all(isThere ? H5Gopen2(file, "TransformGroup", H5P_DEFAULT) : hid_t(-1), H5Gclose);
   if (!all.isOpen())
   {
     throw Problem("is damaged, or holds no transforms of ITK (/TransformGroup)");

@@ -5,6 +5,7 @@
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Files/WayOut.h"
 #include "Formats/Transforms/FSLWarp.h"
 #include "Formats/Transforms/TransformRecord.h"
 
@@ -268,11 +269,13 @@ bool isTransformFile(const std::string& fileName)
 
 PointTransform readTransformFiles(const TransformFiles& files)
 {
+  constexpr const char* OtherTransform =
+    "copy it again, or let its program write a displacement field (.nii.gz or .nrrd) in its place";
   PointTransform chain;
   Reader reader(files);
   for (const std::string& name : files.names)
   {
-    withBeginning("Transform file " + name + " ", [&] { reader.add(name, chain); });
+    withWayOut("Transform file " + name + " ", OtherTransform, [&] { reader.add(name, chain); });
   }
   reverseXY(chain);
   return chain;

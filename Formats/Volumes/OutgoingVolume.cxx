@@ -7,7 +7,9 @@
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <cmath>
 #include <limits>
@@ -175,6 +177,19 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
     warning += std::string(warning.empty() ? "" : ". ") + UnknownSidesWritten +
       ". Set World if you know the axes";
   }
+}
+
+std::string noteOfTimes(vtkImageData* image, vtkInformation* pipeline, const std::string& container)
+{
+  const int times = pipeline ? pipeline->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()) : 0;
+  if (times <= 1)
+  {
+    return {};
+  }
+  vtkInformation* data = image->GetInformation();
+  const bool knowsTime = data->Has(vtkDataObject::DATA_TIME_STEP()) != 0;
+  return joined("The input has ", times, " times; the ", container, " has one of them",
+    knowsTime ? joined(", at ", data->Get(vtkDataObject::DATA_TIME_STEP()), " s") : "");
 }
 
 bool needsTransform(const Grid& grid)

@@ -16,6 +16,7 @@
 
 class vtkDataArray;
 class vtkImageData;
+class vtkInformation;
 
 namespace brainshift
 {
@@ -74,6 +75,13 @@ struct OutgoingVolume
  */
 VTKBRAINSHIFTFORMATS_EXPORT void takeOut(vtkImageData* image, const std::string& arrayName,
   WorldAxes world, OutgoingVolume& volume, std::string& warning);
+
+/**
+ * What a container of one time, "file" or "store", leaves out of several: a sentence, without a
+ * full stop. Empty: nothing.
+ */
+std::string noteOfTimes(
+  vtkImageData* image, vtkInformation* pipeline, const std::string& container);
 
 /**
  * Whether NIfTI needs a transform for this grid. Without one, and with both codes 0, it has the

@@ -5,6 +5,7 @@
 #include "Common/Parallel.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Files/WayOut.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
@@ -19,6 +20,9 @@ namespace brainshift
 {
 namespace
 {
+constexpr const char* OtherVolume =
+  "copy it again, or convert it to .nii.gz or .nrrd in a program that opens it";
+
 // Fills `shown`, whose extent may be a part of the whole, from the voxels as the file orders them.
 template <typename StoredType, typename ShownType, typename Convert>
 void moveVoxels(vtkImageData* stored, vtkImageData* shown, const RasGrid& geometry,
@@ -168,7 +172,7 @@ void PlacedVolume::readHeader(const std::string& fileName)
     throw Problem("FileName is empty; it must name a " + this->File->noun());
   }
   this->Header = VolumeHeader();
-  withBeginning(this->sentence(""), [&] {
+  withWayOut(this->sentence(""), OtherVolume, [&] {
     this->File->readHeader(fileName, this->Header);
     if (this->WorldFromFile != glm::dmat4(1.0)) // which may leave -0
     {
@@ -243,7 +247,7 @@ void PlacedVolume::read(
   StoredVoxels stored;
   this->Damage.clear();
   stored.wanted = extentInFile(extent, this->Geometry);
-  withBeginning(this->sentence("cannot be read: "), [&] {
+  withWayOut(this->sentence("cannot be read: "), OtherVolume, [&] {
     this->requireMemory(extent);
     this->File->load(volume, progress, stored);
   });
@@ -278,6 +282,6 @@ PlacedVolume openVolume(const std::string& fileName)
       return volume;
     }
   }
-  throw Problem("Volume " + fileName + " is of no format that BrainShift reads");
+  throw Problem("Volume " + fileName + " is of no format that BrainShift reads; " + OtherVolume);
 }
 }

@@ -5,8 +5,6 @@
 #include "Formats/Files/Text.h"
 
 #include "vtkImageData.h"
-#include "vtkInformation.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 namespace brainshift
 {
@@ -14,13 +12,10 @@ void noteLeftOut(const std::string& fileName, vtkImageData* image, vtkInformatio
   const OutgoingVolume& volume, std::string& warning)
 {
   std::vector<std::string> notes;
-  const int times = pipeline ? pipeline->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()) : 0;
-  if (times > 1)
+  const std::string times = noteOfTimes(image, pipeline, "file");
+  if (!times.empty())
   {
-    vtkInformation* data = image->GetInformation();
-    const bool knowsTime = data->Has(vtkDataObject::DATA_TIME_STEP()) != 0;
-    notes.push_back(joined("The input has ", times, " times; the file has one of them",
-      knowsTime ? joined(", at ", data->Get(vtkDataObject::DATA_TIME_STEP()), " s") : ""));
+    notes.push_back(times);
   }
   const bool keepsLabels = endsWith(lowerCase(fileName), ".seg.dcm"); // a segmentation
   const std::size_t labels = volume.isLabelMap && !keepsLabels ? attachedLabels(image).size() : 0;

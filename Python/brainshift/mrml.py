@@ -15,6 +15,9 @@ _ESCAPED = (("%22", '"'), ("%3C", "<"), ("%3E", ">"), ("%27", "'"), ("%20", " ")
 _OLD_ROLES = {"transform": "transformNodeRef", "storage": "storageNodeRef",
               "display": "displayNodeRef"}
 
+#: The group of ParaView's proxies with the points that a scene had below nothing.
+WORLD_POINTS = "brainshift_world_points"
+
 
 class SceneProblem(ValueError):
     """Why a scene, or one thing of it, cannot be opened: the end of a sentence about it."""
@@ -22,6 +25,11 @@ class SceneProblem(ValueError):
 
 class SceneClause(SceneProblem):
     """The same with a subject of its own."""
+
+
+def with_way_out(reason):
+    """A reason with what to do about it, unless it says that behind a semicolon."""
+    return reason if "; " in reason else f"{reason}; save it again, with the scene, in 3D Slicer 5"
 
 
 def shown(text):

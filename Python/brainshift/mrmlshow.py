@@ -56,9 +56,11 @@ def _draw(shown, source, view, display):
         shown.ScalarOpacityFunction.RescaleTransferFunction(*window)
 
 
-def _paint(shown, view, display):
+def _paint(shown, view, node, display):
     """The colour and the opacity of a surface or of points."""
-    color = _numbers(display.attributes.get("color", ""), 3)
+    # Slicer draws control points that are selected, as new ones are, in a colour of their own.
+    key = "selectedColor" if node.kind.startswith("Markups") else "color"
+    color = _numbers(display.attributes.get(key) or display.attributes.get("color", ""), 3)
     opacity = _numbers(display.attributes.get("opacity", ""), 1)
     if color and not display.is_on("scalarVisibility"):
         if shown.LookupTable:
@@ -90,7 +92,7 @@ def show_all(scene, sources):
         if is_image:
             _draw(shown, source, view, display)
         elif display:
-            _paint(shown, view, display)
+            _paint(shown, view, node, display)
     if sources:
         simple.ResetCamera(view)
         simple.Render(view)

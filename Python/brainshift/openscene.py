@@ -8,10 +8,11 @@ import warnings
 from .casesources import free_name
 from .files import reason_of
 from .mrb import folder_for, unpack
-from .mrml import SceneClause, SceneProblem, path_of, read_scene
+from .mrml import WORLD_POINTS, SceneClause, SceneProblem, path_of, read_scene, with_way_out
 from .mrmlfiles import require_below
 from .mrmlshow import show_all
 from .mrmltransforms import KINDS, Link, Transforms, files_of, merged, motion_in
+from .points import taken_by
 from .transforms import read_transform
 
 VOLUMES, MODELS = ("Volume", "LabelMapVolume"), ("Model",)
@@ -269,8 +270,8 @@ class _Opening:
         if problem:
             _delete(source)
             raise SceneProblem(f"cannot be moved: {problem}")
-        moved = _taken(source, report, "Backward")
-        miss = _largest_miss(source, _taken(moved, report, "Forward"))
+        moved = taken_by(report, source, "Backward")
+        miss = _largest_miss(source, taken_by(report, moved, "Forward"))
         if not miss < _FAR_MM:  # also rejects NaN
             del moved
             _delete(source)
@@ -308,7 +309,8 @@ class _Opening:
         elif node.kind in KINDS:
             self.transform(node)
         else:
-            raise SceneProblem("is of a kind that BrainShift does not show")
+            raise SceneProblem("is of a kind that BrainShift does not show; save what you need of "
+                               "it as a volume, a model or markups")
 
     def run(self):
         for node in self.scene.nodes:
@@ -318,9 +320,24 @@ class _Opening:
                 self.open(node)
             except SceneProblem as problem:
                 subject = "" if isinstance(problem, SceneClause) else "it "
-                self.found.notes.append(f"{node.words} is not opened: {subject}{problem}.")
+                self.found.notes.append(
+                    f"{node.words} is not opened: {subject}{with_way_out(str(problem))}.")
+        self.mark_moved()
         self.found.notes[:0] = self.scene.notes
         self.found.notes.extend(self.transforms.notes)
+
+    def mark_moved(self):
+        """Points below nothing, beside a volume that is bent, are where tissue is now: marked, so
+        that `save_scene` puts them below nothing again. States keep the mark."""
+        from paraview import servermanager
+
+        kinds = {source.SMProxy.GetXMLName() for _, source in self.shown}
+        if "FreeFormDeformation" not in kinds:
+            return
+        manager = servermanager.ProxyManager().SMProxyManager
+        for node, source in self.shown:
+            if node.kind in POINTS + FIGURES and not merged(self.transforms.chain(node)):
+                manager.RegisterProxy(WORLD_POINTS, node.name, source.SMProxy)
 
 
 def _reader_of(path):
@@ -347,17 +364,6 @@ def _delete(source):
     simple.Delete(source)
     if reader is not None:
         simple.Delete(reader)
-
-
-def _taken(source, report, direction):
-    """The points of a source, taken through a transform; in no pipeline yet."""
-    from paraview import servermanager
-
-    taken = servermanager.misc.TransformPoints(Input=source, Direction=direction)
-    taken.SMProxy.GetProperty("Transform").SetProxy(0, report)
-    taken.SMProxy.UpdateVTKObjects()
-    taken.UpdatePipeline()
-    return taken
 
 
 def _largest_miss(source, back):
@@ -457,7 +463,7 @@ def open_scene(path, folder=None, outside=False):
             own()
     except (SceneProblem, OSError) as problem:
         reason = str(problem) if isinstance(problem, SceneProblem) else f"cannot be read: {problem}"
-        raise ValueError(f"Scene {path} {reason}") from problem
+        raise ValueError(f"Scene {path} {with_way_out(reason)}") from problem
     opening.run()
     opening.found.notes[:0] = notes
     for note in opening.found.notes:

@@ -91,19 +91,24 @@ def _moved_by(filter, points, direction):
     return moved
 
 
-def _taken_by(transform, points, direction):
-    """The points of a source, taken along by a transform, in the process that has them."""
+def taken_by(report, points, direction):
+    """The points of a source, taken along by a transform, in the process that has them; in no
+    pipeline yet."""
     from paraview import servermanager
 
-    report = transform._report
-    if report.GetProperty("World").GetElement(0) != 0:
-        raise ValueError("transform was read with world='LPS'; the points are RAS, so read it with "
-                         "world='RAS'")
     moved = servermanager.misc.TransformPoints(Input=points, Direction=direction)
     moved.SMProxy.GetProperty("Transform").SetProxy(0, report)
     moved.SMProxy.UpdateVTKObjects()
     moved.UpdatePipeline()
     return moved
+
+
+def _report_in_ras(transform):
+    """The proxy of a transform that is in RAS, as all points are."""
+    if transform._report.GetProperty("World").GetElement(0) != 0:
+        raise ValueError("transform was read with world='LPS'; the points are RAS, so read it with "
+                         "world='RAS'")
+    return transform._report
 
 
 def _path(name, value):
@@ -164,7 +169,7 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
         if filter is not None:
             moved = _moved_by(filter, points, leads)
         elif transform is not None:
-            moved = _taken_by(transform, points, leads)
+            moved = taken_by(_report_in_ras(transform), points, leads)
         writer = servermanager.writers.LandmarkWriter(
             Input=moved or points, FileName=file_out, FileAxes=file_axes)
         _write(writer, file_out)

@@ -12,7 +12,7 @@ from xml.sax.saxutils import quoteattr
 from .casesources import inputs_of, sources, stem
 from .files import _write, save_field, save_volume
 from .mrb import MARK, pack
-from .mrml import encoded
+from .mrml import WORLD_POINTS, encoded
 from .views import world_axes
 
 #: The version of Slicer whose scenes these are.
@@ -277,13 +277,17 @@ def _write_segments(source, path):
 
 
 def _is_moved(points):
-    """Whether points are deformed already: by Deform Geometry, unless that led them back, or by a
-    transform of a scene that bends."""
+    """Whether points are deformed already: by Deform Geometry, unless that led them back, by a
+    transform of a scene that bends, or below nothing in a scene whose volume is bent."""
+    from paraview import servermanager
+
+    manager = servermanager.ProxyManager().SMProxyManager
     proxies = inputs_of(points).values()
     steps = [1 - 2 * proxy.GetProperty("Direction").GetElement(0) for proxy in proxies
              if proxy.GetXMLName() == "DeformGeometry"]  # forward: 1, backward: -1
-    return sum(steps) > 0 or any(proxy.GetXMLName() == "TransformReport" and _bends(proxy)
-                                 for proxy in proxies)
+    marked = any(manager.IsProxyInGroup(proxy, WORLD_POINTS) for proxy in proxies)
+    return sum(steps) + marked > 0 or any(
+        proxy.GetXMLName() == "TransformReport" and _bends(proxy) for proxy in proxies)
 
 
 def _bends(report):
@@ -374,8 +378,8 @@ def save_scene(path, volumes, points=(), segmentations=(), hardened=True, spacin
       Segmentation below the same transform.
     - `points`: landmarks at rest: a source or the path of a file, or a list. They are written as
       `.mrk.json`, below the transform of the first Free-Form Deformation. Sources behind a Deform
-      Geometry, and those that `open_scene` moved by a transform that bends, count as
-      `moved_points`.
+      Geometry, and those that `open_scene` moved by a transform that bends or found below nothing
+      beside a volume that is bent, count as `moved_points`.
     - `segmentations`: a source of labels at rest, or a list. They are put below the same transform,
       with the names and colours of their segments.
     - `hardened`: whether a copy with the deformation baked into its voxels goes beside each bent

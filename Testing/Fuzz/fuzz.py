@@ -35,6 +35,7 @@ def arguments(words):
     parser.add_argument("--seed", type=int, default=1, help="default 1")
     parser.add_argument("--first", type=int, default=0, help="number of the first case; default 0")
     parser.add_argument("--kind", choices=KINDS, action="append", help="default: all")
+    parser.add_argument("--keep", metavar="FOLDER", help="where to keep the files of each case")
     parser.add_argument("--limit", type=float, default=120.0, help="seconds a case may take; 120")
     return parser.parse_args(words)
 
@@ -42,14 +43,15 @@ def arguments(words):
 class Worker:
     """A process that runs cases, and the lines that it prints."""
 
-    def __init__(self, kind, seed, first, end, folder):
+    def __init__(self, kind, options, first, end, folder):
         pvpython = os.environ.get("BRAINSHIFT_PVPYTHON") or shutil.which("pvpython")
         paths = [HERE, os.path.join(HERE, "..", "Support"), *FORMATS,
                  os.environ.get("PYTHONPATH", "")]
         self.errors = open(os.path.join(folder, "stderr.txt"), "w", encoding="utf-8")
         self.process = subprocess.Popen(
-            [pvpython, os.path.join(HERE, "worker.py"), kind, str(seed), str(first), str(end),
-             folder], stdout=subprocess.PIPE, stderr=self.errors, text=True, errors="replace",
+            [pvpython, os.path.join(HERE, "worker.py"), kind, str(options.seed), str(first),
+             str(end), folder, *([options.keep] if options.keep else [])],
+            stdout=subprocess.PIPE, stderr=self.errors, text=True, errors="replace",
             env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)})
         self.lines = queue.Queue()
         threading.Thread(target=self._listen, daemon=True).start()
@@ -77,7 +79,7 @@ class Worker:
 
 def run_some(kind, options, first, end, folder):
     """Runs cases until one ends or blocks the worker. Yields (number, result)."""
-    worker = Worker(kind, options.seed, first, end, folder)
+    worker = Worker(kind, options, first, end, folder)
     current, upcoming, waits = None, first, STARTS_WITHIN
     try:
         while (line := worker.line(waits)) is not None:

@@ -10,7 +10,8 @@ unset CTEST_PARALLEL_LEVEL
 
 # A ParaView and tools that write down how they are called.
 export ParaView_DIR=$folder/paraview/lib/cmake/paraview-5.13
-mkdir -p "$ParaView_DIR" "$folder/paraview/bin" "$folder"/checkout/{build/{paraview-5.13{,-asan,-clang},portable-{libcxx,windows}},.ci}
+mkdir -p "$ParaView_DIR" "$folder/paraview/bin" "$folder"/checkout/{build/{paraview-5.13{,-asan,-clang,-engine},portable-{libcxx,windows}},.ci}
+touch "$folder/checkout/build/paraview-5.13/environment.sh"
 echo 'set(PACKAGE_VERSION "5.13.2")' >"$ParaView_DIR/paraview-config-version.cmake"
 echo 'set(PARAVIEW_QT_MAJOR_VERSION "6")' >"$ParaView_DIR/paraview-config.cmake"
 export called=$folder/called
@@ -54,6 +55,9 @@ for words in "Portable -B $folder/checkout/build/portable-windows" "-stdlib=libc
   "build/paraview-5.13-clang --output-on-failure -L ^cxx\$ -R Fit"; do
   asks "test --portable -R Fit" "$words"
 done
+asks "fuzz --engine libfuzzer --count 5" "engine.py $folder/checkout/build/paraview-5.13-engine --count 5"
+asks "fuzz --engine libfuzzer" "paraview-5.13-engine --target Fuzzers"
+refuses "fuzz --engine honggfuzz"
 asks "lint" "lint.py $folder/checkout $folder/checkout/build/paraview-5.13"
 asks "lint spelling format" "paraview-5.13 spelling format"
 builds lint 1

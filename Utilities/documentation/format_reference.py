@@ -118,7 +118,7 @@ def endings(kinds, column="read"):
     by_format = {}
     for name, text in named:
         found = by_format.setdefault(name, [])
-        words = re.findall(r"`\.[^`]+`", text) or ([text] if kinds == "Transforms" else [])
+        words = re.findall(r"`\.[^`]+`", text) or ([text] if text != "–" else [])
         found += [word for word in words if word not in found]
     return "; ".join(f"{name} {', '.join(found)}" for name, found in by_format.items() if found)
 

@@ -89,10 +89,10 @@ TEST_F(SegmentedFilter, PassesTheSameArrayAgain)
 TEST_F(SegmentedFilter, CarriesTheNamesOfTheLabels)
 {
   const auto volume = volumeOn(VolumeGrid, VTK_FLOAT, [](vtkIdType) { return 1.0; });
-  attachLabels(volume, { { 1, "the volume's own", { 1, 2, 3 } } });
+  attachLabels(volume, { { 1, "the volume's own", { 1, 2, 3 }, {} } });
   this->Filter->SetInputDataObject(0, volume);
   const auto named = labelsOn(VolumeGrid);
-  attachLabels(named, { { 3, "sulcus", { 4, 5, 6 } }, { -5, "below", { 7, 8, 9 } } });
+  attachLabels(named, { { 3, "sulcus", { 4, 5, 6 }, {} }, { -5, "below", { 7, 8, 9 }, {} } });
   for (const int port : { 2, 3 }) // mask or segmentation
   {
     this->Filter->SetInputDataObject(port, named);

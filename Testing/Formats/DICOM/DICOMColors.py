@@ -6,28 +6,18 @@ import shutil
 
 import numpy
 import pydicom
-from brainshift_testing import (assert_says, data, load_plugin, messages, output, run_tests,
-                                scratch)
-from dicom_testing import (AXIAL, OBLIQUE, assert_placed, enhanced, folder, numbered, read_again,
-                           scalars, write_slices)
+from brainshift_testing import assert_says, data, load_plugin, output, run_tests, scratch
+from dicom_testing import (AXIAL, OBLIQUE, affine_of, assert_placed, enhanced, folder, numbered,
+                           read, read_again, scalars, write_slices)
 from pydicom.encaps import encapsulate
 from pydicom.sequence import Sequence
-from segment_files import affine_of, code, item, run_lengths
+from segment_files import code, item, run_lengths
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 load_plugin()
-from paraview.simple import DICOMVolumeReader  # noqa: E402 after the plugin
 
 PARAMETRIC = "1.2.840.10008.5.1.4.1.1.30"
 COLOURS = numpy.random.default_rng(8).integers(0, 256, (3, 4, 6, 3)).astype(numpy.uint8)
-
-
-def read(path, **properties):
-    """The reader, and what it told."""
-    with messages() as told:
-        reader = DICOMVolumeReader(FileName=path, **properties)
-        reader.UpdatePipeline()
-    return reader, told.text
 
 
 def refused(change, *words):

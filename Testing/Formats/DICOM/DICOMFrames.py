@@ -7,31 +7,13 @@ import subprocess
 import nibabel
 import numpy
 import pydicom
-from brainshift_testing import assert_says, data, load_plugin, messages, output, run_tests
-from dicom_testing import (CORONAL, OBLIQUE, assert_placed, enhanced, folder, numbered,
-                           plain_header, read_again, scalars, set_pixels, write_slices)
+from brainshift_testing import assert_says, data, load_plugin, output, run_tests
+from dicom_testing import (CORONAL, OBLIQUE, affine_of, assert_placed, enhanced, folder, numbered,
+                           plain_header, read, read_again, scalars, set_pixels, write_slices)
 from pydicom.sequence import Sequence
 from real_dicom import differences
 
 load_plugin()
-from paraview.simple import DICOMVolumeReader  # noqa: E402 after the plugin
-
-
-def read(path, **properties):
-    """The reader, and what it told."""
-    with messages() as told:
-        reader = DICOMVolumeReader(FileName=path, **properties)
-        reader.UpdatePipeline()
-    return reader, told.text
-
-
-def affine_of(axes, spacing=(0.7, 0.9), step=2.5, origin=(-11.0, 22.0, 33.0)):
-    affine = numpy.eye(4)
-    affine[:3, 0] = numpy.multiply(axes[0], spacing[0])
-    affine[:3, 1] = numpy.multiply(axes[1], spacing[1])
-    affine[:3, 2] = numpy.cross(*axes) * step
-    affine[:3, 3] = origin
-    return numpy.diag((-1.0, -1.0, 1.0, 1.0)) @ affine
 
 
 def written(name, image):

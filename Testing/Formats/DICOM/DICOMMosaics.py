@@ -10,22 +10,13 @@ import struct
 import nibabel
 import numpy
 import pydicom
-from brainshift_testing import assert_says, data, load_plugin, messages, output, run_tests
-from dicom_testing import AXIAL, OBLIQUE, assert_placed, folder, scalars, write_slices
+from brainshift_testing import assert_says, data, load_plugin, output, run_tests
+from dicom_testing import AXIAL, OBLIQUE, assert_placed, folder, read, scalars, write_slices
 
 load_plugin()
-from paraview.simple import DICOMVolumeReader  # noqa: E402 after the plugin
 
 SIEMENS = "SIEMENS CSA HEADER"
 TILE = (4, 5)  # rows, columns
-
-
-def read(path, **properties):
-    """The reader, and what it told."""
-    with messages() as told:
-        reader = DICOMVolumeReader(FileName=path, **properties)
-        reader.UpdatePipeline()
-    return reader, told.text
 
 
 def siemens_header(**fields):
@@ -106,6 +97,59 @@ def test_tiles_lie_along_siemens_normal():
                 reader, told = read(path)
                 assert not told, told
                 assert_volumes(reader, affine, voxels)
+
+
+def united_mosaic(name, axes=OBLIQUE, slices=6, change=None):
+    """Mosaics as United Imaging writes them, of 3 x 2 tiles: as those of Siemens above, but with a
+    position for each slice, in a sequence of its own, and none for the picture."""
+    voxels = numpy.arange(2 * slices * TILE[0] * TILE[1], dtype=numpy.int16)
+    voxels = voxels.reshape(2, slices, *TILE)
+    first, normal = numpy.array((-11.0, 22.0, 33.0)), numpy.cross(*axes)
+
+    def edit(image, index):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "M", "VFRAME"]
+        image.AcquisitionTime = f"1015{2.5 * index:09.6f}"
+        del image.ImagePositionPatient
+        places = [pydicom.Dataset() for _ in range(slices)]
+        for i, place in enumerate(places):
+            place.ImagePositionPatient = [f"{each:.9g}" for each in first - 4.2 * i * normal]
+        image.private_block(0x0065, "Image Private Header", create=True).add_new(
+            0x51, "SQ", pydicom.Sequence(places))
+        if change:
+            change(image)
+
+    across = int(numpy.ceil(numpy.sqrt(slices)))
+    pictures = [tiles_of(volume)[:TILE[0] * -(-slices // across)] for volume in voxels]
+    path = write_slices(folder(name), pictures, axes=axes, change=edit)
+    affine = numpy.eye(4)
+    affine[:3] = numpy.stack([0.7 * numpy.asarray(axes[0]), 0.9 * numpy.asarray(axes[1]),
+                              -4.2 * normal, first], axis=1)
+    return path, numpy.diag((-1.0, -1.0, 1.0, 1.0)) @ affine, voxels
+
+
+def test_tiles_of_united_imaging_lie_at_their_own_positions():
+    for slices in (5, 6, 9):
+        path, affine, voxels = united_mosaic("united", slices=slices)
+        reader, told = read(path)
+        assert not told, told
+        assert_volumes(reader, affine, voxels)
+
+
+def test_mosaics_of_united_imaging_that_are_refused():
+    def bare(image):
+        del image[0x0065, 0x1051]
+
+    def unplaced(image):
+        del image[0x0065, 0x1051].value[2].ImagePositionPatient
+
+    def more(image):
+        image[0x0065, 0x1051].value.extend([image[0x0065, 0x1051].value[0]] * 4)
+
+    for change, words in ((bare, "without the positions of its slices"),
+                          (unplaced, "slice 3 has no ImagePositionPatient"),
+                          (more, "4 x 3 tiles divide")):
+        told = read(united_mosaic("united-refused", change=change)[0])[1]
+        assert_says(told, words, "dcm2niix")
 
 
 def test_packed_and_rescaled_tiles_have_their_numbers():

@@ -9,18 +9,9 @@ import numpy
 import pydicom
 from brainshift_testing import assert_says, load_plugin, messages, output, run_tests
 from dicom_testing import (AXIAL, CORONAL, OBLIQUE, SAGITTAL, assert_placed, folder, numbered,
-                           places, read_again, scalars, write_slices)
+                           places, read, read_again, scalars, write_slices)
 
 load_plugin()
-from paraview.simple import DICOMVolumeReader  # noqa: E402 after the plugin
-
-
-def read(path, **properties):
-    """The reader, and what it told."""
-    with messages() as told:
-        reader = DICOMVolumeReader(FileName=path, **properties)
-        reader.UpdatePipeline()
-    return reader, told.text
 
 
 def assert_right(path, **properties):

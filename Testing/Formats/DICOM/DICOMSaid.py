@@ -6,21 +6,12 @@ import os
 
 import numpy
 import pydicom
-from brainshift_testing import assert_says, load_plugin, messages, output, run_tests
-from dicom_testing import (AXIAL, CORONAL, assert_placed, enhanced, folder, numbered, plain_header,
-                           read_again, scalars, set_pixels, write_slices)
+from brainshift_testing import assert_says, load_plugin, output, run_tests
+from dicom_testing import (AXIAL, CORONAL, affine_of, assert_placed, enhanced, folder, numbered,
+                           plain_header, read, read_again, scalars, set_pixels, write_slices)
 from pydicom.sequence import Sequence
 
 load_plugin()
-from paraview.simple import DICOMVolumeReader  # noqa: E402 after the plugin
-
-
-def read(path, **properties):
-    """The reader, and what it told."""
-    with messages() as told:
-        reader = DICOMVolumeReader(FileName=path, **properties)
-        reader.UpdatePipeline()
-    return reader, told.text
 
 
 def nuclear(step, order=None, axes=AXIAL, placed=True):
@@ -43,21 +34,13 @@ def nuclear(step, order=None, axes=AXIAL, placed=True):
     return path, voxels
 
 
-def affine_of(axes, step, origin=(-11.0, 22.0, 33.0)):
-    affine = numpy.eye(4)
-    affine[:3, 0], affine[:3, 1] = numpy.multiply(axes[0], 2.0), numpy.multiply(axes[1], 2.0)
-    affine[:3, 2] = numpy.cross(*axes) * step
-    affine[:3, 3] = origin
-    return numpy.diag((-1.0, -1.0, 1.0, 1.0)) @ affine
-
-
 def test_the_sign_of_the_spacing_says_where_slices_go():
     for axes in (AXIAL, CORONAL):
         for step in (3.0, -3.0):
             path, voxels = nuclear(step, axes=axes)
             reader, told = read(path)
             assert not told, told
-            assert_placed(reader, affine_of(axes, step), voxels)
+            assert_placed(reader, affine_of(axes, (2.0, 2.0), step), voxels)
 
 
 def test_slice_vectors_say_which_slice_a_frame_is():
@@ -66,7 +49,7 @@ def test_slice_vectors_say_which_slice_a_frame_is():
         reader, told = read(path)
         assert not told, told
         sorted_voxels = voxels[numpy.argsort(order)]
-        assert_placed(reader, affine_of(AXIAL, step), sorted_voxels)
+        assert_placed(reader, affine_of(AXIAL, (2.0, 2.0), step), sorted_voxels)
         path, voxels = nuclear(step, order, placed=False)
         reader, told = read(path)
         assert_says(told, "has no positions of its images")
@@ -75,7 +58,7 @@ def test_slice_vectors_say_which_slice_a_frame_is():
     path, voxels = nuclear(3.0, [4, 3, 2, 1])
     reader, told = read(path)
     assert_says(told, "has slice 4 as its first frame (SliceVector)")
-    assert_placed(reader, affine_of(AXIAL, -3.0), voxels)
+    assert_placed(reader, affine_of(AXIAL, (2.0, 2.0), -3.0), voxels)
     for order in ([1, 2, 2, 3], [1, 2, 3]):
         reader, told = read(nuclear(3.0, order)[0])
         assert_says(told, "has a SliceVector of", "another number for each frame")

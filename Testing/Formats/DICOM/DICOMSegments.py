@@ -8,21 +8,13 @@ import fields_walk
 import numpy
 import pydicom
 from brainshift_testing import assert_says, data, load_plugin, messages, output, run_tests
-from dicom_testing import (AXIAL, CORONAL, OBLIQUE, assert_placed, folder, numbered, scalars,
-                           write_slices)
+from dicom_testing import (AXIAL, CORONAL, OBLIQUE, affine_of, assert_placed, folder, numbered,
+                           read, scalars, write_slices)
 from pydicom.sequence import Sequence
-from segment_files import affine_of, code, described, item, masks, segmentation
+from segment_files import code, described, item, masks, segmentation
 
 load_plugin()
 from paraview.simple import DICOMVolumeReader  # noqa: E402 after the plugin
-
-
-def read(path, **properties):
-    """The reader, and what it told."""
-    with messages() as told:
-        reader = DICOMVolumeReader(FileName=path, **properties)
-        reader.UpdatePipeline()
-    return reader, told.text
 
 
 def written(image, name="segments"):

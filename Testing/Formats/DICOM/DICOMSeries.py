@@ -10,7 +10,7 @@ import numpy
 import pydicom
 from brainshift_testing import assert_says, data, load_plugin, messages, output, run_tests, scratch
 from dicom_testing import (AXIAL, CORONAL, NUMBER, assert_placed, folder, numbered, plain_header,
-                           read_again, scalars, write_slices)
+                           read, read_again, scalars, write_slices)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -19,14 +19,6 @@ from paraview.simple import (  # noqa: E402
     Delete, DICOMVolumeReader, OpenDataFile, SaveState)
 from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonCore import vtkCommand  # noqa: E402
-
-
-def read(path, **properties):
-    """The reader, and what it told."""
-    with messages() as told:
-        reader = DICOMVolumeReader(FileName=path, **properties)
-        reader.UpdatePipeline()
-    return reader, told.text
 
 
 def names(reader):

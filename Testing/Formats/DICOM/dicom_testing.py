@@ -10,7 +10,7 @@ import shutil
 
 import numpy
 import pydicom
-from brainshift_testing import output, scratch
+from brainshift_testing import messages, output, scratch
 from pydicom.dataset import FileDataset, FileMetaDataset
 from pydicom.sequence import Sequence
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -34,6 +34,25 @@ def folder(name):
     shutil.rmtree(path, ignore_errors=True)
     os.makedirs(path)
     return path
+
+
+def affine_of(axes=AXIAL, spacing=(0.7, 0.9), step=2.5, origin=(-11.0, 22.0, 33.0)):
+    """To RAS mm, from (column, row, slice)."""
+    affine = numpy.eye(4)
+    affine[:3, 0] = numpy.multiply(axes[0], spacing[0])
+    affine[:3, 1] = numpy.multiply(axes[1], spacing[1])
+    affine[:3, 2] = numpy.cross(*axes) * step
+    affine[:3, 3] = origin
+    return numpy.diag((-1.0, -1.0, 1.0, 1.0)) @ affine
+
+
+def read(path, **properties):
+    """The reader, and what it told."""
+    from paraview import simple
+    with messages() as told:
+        reader = simple.DICOMVolumeReader(FileName=path, **properties)
+        reader.UpdatePipeline()
+    return reader, told.text
 
 
 def numbered(slices=4, rows=5, columns=6, dtype=numpy.int16, start=0):

@@ -92,16 +92,6 @@ def set_segment_pixels(image, pixels, bits):
     image["PixelData"].VR = "OB" if bits <= 8 else "OW"
 
 
-def affine_of(axes=AXIAL, spacing=SPACING, step=STEP, origin=ORIGIN):
-    """To RAS mm, from (column, row, slice)."""
-    affine = numpy.eye(4)
-    affine[:3, 0] = numpy.multiply(axes[0], spacing[0])
-    affine[:3, 1] = numpy.multiply(axes[1], spacing[1])
-    affine[:3, 2] = numpy.cross(*axes) * step
-    affine[:3, 3] = origin
-    return numpy.diag((-1.0, -1.0, 1.0, 1.0)) @ affine
-
-
 def masks(count, rows=5, columns=7, seed=3):
     """Frames of random bits: [frame, row, column]. A frame has 35 bits, which end inside a byte."""
     return numpy.random.default_rng(seed).integers(0, 2, (count, rows, columns)).astype(numpy.uint8)

@@ -90,6 +90,28 @@ def test_a_file_of_another_program_is_read():
     numpy.testing.assert_allclose(voxels(source), judged.get_fdata(), rtol=1e-6)
 
 
+def test_files_of_minc_tools_are_read():
+    path = data("other-writers", "minc_tools.mnc")
+    judged = nibabel.load(path)
+    source = opened(path, READER)
+    affine, found, values = matrix(output(source)), voxels(source), judged.get_fdata()
+    for index in numpy.ndindex(*judged.shape):
+        place = numpy.linalg.solve(affine, judged.affine @ (*index, 1.0))[:3]
+        at = numpy.rint(place).astype(int)
+        assert numpy.linalg.norm(affine[:3, :3] @ (place - at)) < 1e-3, index
+        assert abs(found[tuple(at[::-1])] - values[index]) < 1e-5, index
+    # nibabel reads no uneven times; the numbers are those that rawtominc was given.
+    with messages() as said:
+        source = opened(data("other-writers", "minc_tools_times.mnc"), READER)
+        source.UpdatePipeline()
+    right = (numpy.arange(120).reshape(2, 3, 4, 5) / 7 - 3).astype(numpy.float32)  # [t, z, x, y]
+    assert list(source.TimestepValues) == [0.0, 2.5], source.TimestepValues
+    for time, volume in zip((0.0, 2.5), right):
+        source.UpdatePipeline(time)
+        numpy.testing.assert_array_equal(voxels(source), volume.transpose(0, 2, 1)[::-1])
+    assert "start along zspace, which counts as 0" in said.text, said.text
+
+
 def test_types_and_ranges_are_those_of_nibabel():
     for kind in TYPES:
         isReal = kind.startswith("float")
@@ -249,6 +271,17 @@ def test_a_file_with_a_gap_before_its_data_is_whole_or_refused():
         source, said = said_of(short)
         assert f"its header announces {len(content)}" in said, (cut, said)
         assert output(source).GetNumberOfPoints() == 0, cut
+
+
+def test_counts_that_no_file_has_are_refused_before_netcdf_takes_memory():
+    path = write("counts", kind="float32", ranged=())
+    with open(path, "rb") as file:
+        content = file.read()
+    for place, words in ((12, "announces 2147483647 dimensions in"),
+                         (16, "ends within its header")):  # the length of the first name
+        spoiled = content[:place] + (2 ** 31 - 1).to_bytes(4, "big") + content[place + 4:]
+        source, said = said_of(volume_files.write(scratch("counts spoiled.mnc"), spoiled))
+        assert words in said and output(source).GetNumberOfPoints() == 0, said
 
 
 run_tests(globals())

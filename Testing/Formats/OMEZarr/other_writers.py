@@ -53,13 +53,7 @@ def groups_below(folder):
 
 def place_of(image, dataset, axes):
     """(scale, translation) in mm along x, y, z, by json."""
-    scale, shift = numpy.ones(len(axes)), numpy.zeros(len(axes))
-    for step in [*dataset["coordinateTransformations"],
-                 *(image.get("coordinateTransformations") or [])]:
-        if step["type"] == "scale":
-            scale, shift = scale * step["scale"], shift * step["scale"]
-        elif step["type"] == "translation":
-            shift = shift + step["translation"]
+    scale, shift = zarr_files.transformed(image, dataset, axes)
     names = [axis["name"] for axis in axes]
     result = []
     for name in "xyz":

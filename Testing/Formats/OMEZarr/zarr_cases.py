@@ -145,18 +145,6 @@ def require_separator(name):
             raise Open
 
 
-def transformed(image, dataset, axes):
-    """(scale, translation) along the axes of a level."""
-    scale, shift = numpy.ones(len(axes)), numpy.zeros(len(axes))
-    for step in [*dataset["coordinateTransformations"],
-                 *(image.get("coordinateTransformations") or [])]:
-        if step["type"] == "scale":
-            scale, shift = scale * step["scale"], shift * step["scale"]
-        elif step["type"] == "translation":
-            shift = shift + step["translation"]
-    return scale, shift
-
-
 def judged(path, shown):
     """World places of voxels, and their numbers as [x, y, z, component], of a level, by json, numpy
     and zarr-python. It raises what they raise."""
@@ -167,8 +155,8 @@ def judged(path, shown):
     direction = numpy.eye(3) if rows is None else numpy.array(rows, float)
     dataset = image["datasets"][shown]
     axes = image["axes"]
-    scale, shift = transformed(image, dataset, axes)
-    fixed = transformed(image, image["datasets"][0], axes)[1]
+    scale, shift = zarr_files.transformed(image, dataset, axes)
+    fixed = zarr_files.transformed(image, image["datasets"][0], axes)[1]
     require_separator(os.path.join(path, dataset["path"], "zarr.json"))
     values = zarr.open_array(os.path.join(path, dataset["path"]), mode="r")[...]
     names = [axis["name"] for axis in axes]

@@ -151,3 +151,15 @@ def refused(path, **properties):
     assert "ERROR" in said.text, path
     simple.Delete(source)
     return said.text
+
+
+def transformed(image, dataset, axes):
+    """(scale, translation) along the axes of a level."""
+    scale, shift = numpy.ones(len(axes)), numpy.zeros(len(axes))
+    for step in [*dataset["coordinateTransformations"],
+                 *(image.get("coordinateTransformations") or [])]:
+        if step["type"] == "scale":
+            scale, shift = scale * step["scale"], shift * step["scale"]
+        elif step["type"] == "translation":
+            shift = shift + step["translation"]
+    return scale, shift

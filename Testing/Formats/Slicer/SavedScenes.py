@@ -397,4 +397,26 @@ def test_points_of_a_scene_are_at_rest_where_they_only_turned():
                                 "stretched": None}, parents_of(path)
 
 
+def test_points_below_nothing_beside_a_bent_volume_stay_below_nothing():
+    folder = fresh("points in the world")
+    first = os.path.join(folder, "first.mrml")
+    marks = slicer.Written("points in the world")
+    marks.landmarks("Rest", REST)
+    marks.landmarks("World", REST)
+    brainshift.save_scene(first, bent_file(head_in(folder, "T1.nrrd")), hardened=False,
+                          points=marks.path("Rest.mrk.json"),
+                          moved_points=marks.path("World.mrk.json"))
+    found = brainshift.open_scene(first)
+    again = os.path.join(folder, "again.mrml")
+    brainshift.save_scene(again, found.volumes["T1"], hardened=False,
+                          points=[found.points["World"]])
+    assert parents_of(again) == {"World": None}, parents_of(again)
+    # In a scene whose volume is not bent they are at rest.
+    marks.linear("T", slicer.TURN)
+    plain = brainshift.open_scene(marks.written())
+    brainshift.save_scene(again, found.volumes["T1"], hardened=False,
+                          points=[plain.points["World"]])
+    assert parents_of(again) == {"World": "GridTransform"}, parents_of(again)
+
+
 run_tests(globals())

@@ -37,7 +37,8 @@ def test_colours_and_windows():
     add_volume(scene, "head")
     simple.SaveData(scene.path("ball.vtp"), simple.Sphere(Radius=30))
     for kind in ("Model", "Markups"):
-        scene.node(f"{kind}Display", f"{kind}Look", color="0.5 0.25 0", opacity="0.75",
+        scene.node(f"{kind}Display", f"{kind}Look", opacity="0.75",
+                   **{"color" if kind == "Model" else "selectedColor": "0.5 0.25 0"},
                    visibility="true", scalarVisibility="false")
     scene.stored("Model", "ball", "ball.vtp", storage={"coordinateSystem": "LPS"},
                  references="storage:ballStorage;display:ModelLook;")

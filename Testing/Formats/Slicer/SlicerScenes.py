@@ -16,7 +16,7 @@ from slicer_testing import HALF_TURN, STRETCH, TURN, Written, of_rows
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkFiltersHybrid import vtkGridTransform
+from vtkmodules.vtkFiltersHybrid import vtkBSplineTransform, vtkGridTransform
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 load_plugin()
@@ -139,6 +139,38 @@ def test_splines_nested_and_inverse():
     assert not found.notes, found.notes
     assert_there(found.points["spline points"], of_rows(TURN, WORLD))
     assert_there(found.points["inverse points"], of_rows(TURN, local))
+
+
+def as_slicers_spline(points, kind):
+    """RAS points moved by VTK's B-spline transform, as Slicer sets it up: zero outside its grid."""
+    _, parameters, fixed = kind
+    image = vtkImageData()
+    image.SetDimensions(*map(int, fixed[:3]))
+    image.SetOrigin(*fixed[3:6])
+    image.SetSpacing(*fixed[6:9])
+    vectors = numpy.ascontiguousarray(numpy.reshape(parameters, (3, -1)).T)
+    image.GetPointData().SetScalars(numpy_to_vtk(vectors, deep=True))
+    transform = vtkBSplineTransform()
+    transform.SetCoefficientData(image)
+    transform.SetBorderModeToZero()
+    return numpy.array([transform.TransformPoint(*(point * FLIP)) for point in points]) * FLIP
+
+
+def test_splines_fade_around_their_grid():
+    """On both sides of its border, where ITK's spline has ended."""
+    scene = Written("fading splines")
+    with open(scene.path("spline.tfm"), "w") as file:
+        file.write(itk_text(SPLINE))
+    scene.stored("BSplineTransform", "spline", "spline.tfm")
+    cells = numpy.random.default_rng(6).uniform(-2.9, 1.2, (60, 3))
+    cells[::2, 0] = 13.1 - cells[::2, 0]
+    cells[::3, 1:] = (4.3, 5.2)
+    around = (numpy.array(SPLINE[2][3:6]) + cells * SPLINE[2][6:9]) * FLIP
+    scene.landmarks("around", as_slicers_spline(around, SPLINE), above="spline")
+    found = opened(scene.written())
+    assert_there(found.points["around"], around)
+    ends = numpy.abs(mapped_outside(around, SPLINE) - as_slicers_spline(around, SPLINE)).max()
+    assert ends > 0.1, ends
 
 
 def test_points_without_a_position_are_said():
@@ -408,7 +440,7 @@ def test_what_is_not_opened_is_said():
                            if not only_points or "refused-by-itself" not in line]
         return make
     refused("T is not in the scene", below())
-    refused("no such file", lambda scene: scene.stored("Volume", "V", "gone.nrrd"))
+    refused("no such file; save it again", lambda scene: scene.stored("Volume", "V", "gone.nrrd"))
     refused("outside the folder", lambda scene: scene.stored("Volume", "V", "../out.nrrd"))
     refused("outside the folder", lambda scene: scene.stored("Model", "M", "/etc/hostname"))
     refused("no file of this machine",

@@ -256,4 +256,26 @@ def test_damaged_trx_files_end_in_one_sentence():
     assert_says(refusal(scratch("bad.trx")), "array offsets twice")
 
 
+def test_files_of_trx_python_open():
+    """Stored and deflated, offsets of 4 bytes, and positions of float16, which hold 1/512 mm."""
+    random = numpy.random.default_rng(43)
+    counts = (3, 1, 5, 2)
+    lines = [(0, 0, 5) + numpy.cumsum(random.normal(0, 1.5, (n, 3)), 0) for n in counts]
+    fa = numpy.concatenate([random.uniform(0, 1, (count, 1)) for count in counts]).ravel()
+    weight = random.uniform(0, 1, (4, 1)).ravel()
+    color = random.integers(0, 255, (4, 3))
+    for kind, most in (("float32", 1e-6), ("float16", 1 / 512)):
+        shown = read_by(simple.TractReader, data("other-writers", f"trx_python_{kind}.trx"),
+                        ["1 array of whole groups (dpg); left out"])
+        away = numpy.abs(points_of(shown) - numpy.concatenate(lines)).max()
+        assert away <= most and [len(line) for line in lines_of(shown)] == list(counts), away
+        cells = {name: vtk_to_numpy(shown.GetCellData().GetArray(name))
+                 for name in ("weight", "color", "groups/CST_left", "groups/all")}
+        assert numpy.abs(cells["weight"] - weight).max() < 1e-7
+        assert (cells["color"] == color).all()
+        assert list(cells["groups/CST_left"]) == [1, 0, 1, 0] and cells["groups/all"].all()
+        found = vtk_to_numpy(shown.GetPointData().GetArray("fa"))
+        assert (found == fa.astype(numpy.float16)).all()
+
+
 run_tests(globals())

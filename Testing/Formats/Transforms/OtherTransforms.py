@@ -438,7 +438,7 @@ def test_fnirt_coefficients_need_both_images():
     ref_frame = fsl_frame(ref_affine, sides, (4, 5, 4.5))
     in_frame = fsl_frame(in_affine, in_sides, (3, 2.5, 2))
     knots = numpy.array((4, 5, 3))
-    count = -(-numpy.array(sides) // knots) + 3
+    count = -(-(numpy.array(sides) + 1) // knots) + 2  # as FNIRT makes them
     coefficients = RANDOM.uniform(-6, 6, (*count, 3))
     ref_from_in = numpy.eye(4)
     ref_from_in[:3, :3], ref_from_in[:3, 3] = turned((0.05, -0.1, 0.02)) * 1.05, (4, -3, 6)
@@ -451,10 +451,14 @@ def test_fnirt_coefficients_need_both_images():
     header["qform_code"], header["qoffset_x"], header["qoffset_y"], header["qoffset_z"] = (
         1, *sides)
     nibabel.save(file, scratch("fnirt_coefficients.nii.gz"))
-    points = inner(ref_affine, sides)
+    voxels = RANDOM.uniform(0, numpy.array(sides) - 1, (300, 3))
+    voxels[:100] = numpy.array(sides) - 1 - voxels[:100] / 8  # beyond the last knots, too
+    points = moved(ref_affine, voxels)
     fsl = moved(numpy.linalg.inv(ref_frame), points)
     at = fsl / (4, 5, 4.5) / knots + 1  # FNIRT's first coefficient is before its first voxel
-    bend = spline_sum(coefficients.astype("f4").transpose(2, 1, 0, 3).astype(float), at)
+    stored = coefficients.astype("f4").transpose(2, 1, 0, 3).astype(float)
+    around = numpy.pad(stored, (*[(3, 3)] * 3, (0, 0)))  # there is nothing beyond the knots
+    bend = spline_sum(around, at + 3)
     right = moved(in_frame, moved(numpy.linalg.inv(ref_from_in), fsl) + bend)
     found = brainshift.read_transform(
         scratch("fnirt_coefficients.nii.gz"), fixed_image=ref, moving_image=source).map(points)

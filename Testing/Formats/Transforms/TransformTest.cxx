@@ -172,6 +172,9 @@ TEST(TransformFile, DamagedFilesEndInASentence)
   EXPECT_TRUE(says(problemOf("t.mat", matlab), "ends within a variable"));
   EXPECT_TRUE(says(problemOf("t.mat", matlab.substr(0, 10)), "ends within a variable"));
   EXPECT_TRUE(says(problemOf("t.mat", std::string(20, '\x01')), "is no MATLAB file"));
+  std::string least(20, '\0'); // the least number of 32 bits, the highest byte first
+  least[0] = '\x80';
+  EXPECT_TRUE(says(problemOf("t.mat", least), "is no MATLAB file"));
   EXPECT_TRUE(says(problemOf("t.h5", "\x89HDF\r\n\x1a\n damaged"), "is damaged"));
   EXPECT_FALSE(isTransformFile(written("t.csv", "x,y,z\n1,2,3\n")));
   EXPECT_FALSE(isTransformFile(std::string(BRAINSHIFT_TEST_TEMP)));

@@ -5,6 +5,7 @@
 import glob
 import os
 import re
+import shutil
 import struct
 
 import numpy
@@ -483,6 +484,39 @@ def test_bad_files_end_in_a_sentence():
     name = write("linear.tfm", good)
     raises(ValueError, "direction is", brainshift.apply_transform, BOX, name, "sideways")
     raises(ValueError, "must be a Free-Form Deformation", brainshift.apply_transform, BOX, name)
+
+
+def test_hdf5_leads_to_no_other_file():
+    """A link, or numbers outside the file, could read any file that the user may read."""
+    import h5py
+    whole = scratch("whole.h5")
+    write_hdf5(whole, LINEAR[0][:3])
+    group = "TransformGroup/0"
+    for name, words in (("linked", "as a link"), ("soft", "as a link"), ("group", "as a link"),
+                        ("outside", "in another file"), ("virtual", "in another file")):
+        other = scratch(f"{name}.h5")
+        shutil.copy(whole, other)
+        with h5py.File(other, "a") as file:
+            members = file[group]
+            numbers = members["TransformParameters"][...]
+            if name == "group":
+                del file[group]
+                file[group] = h5py.ExternalLink("whole.h5", group)
+                continue
+            members.move("TransformParameters", "Kept")
+            if name == "linked":
+                members["TransformParameters"] = h5py.ExternalLink(
+                    "whole.h5", f"{group}/TransformParameters")
+            elif name == "soft":
+                members["TransformParameters"] = h5py.SoftLink("Kept")
+            elif name == "outside":
+                members.create_dataset("TransformParameters", numbers.shape, numbers.dtype,
+                                       external=[(whole, 0, numbers.nbytes)])
+            else:
+                layout = h5py.VirtualLayout(numbers.shape, numbers.dtype)
+                layout[:] = h5py.VirtualSource(whole, f"{group}/TransformParameters", numbers.shape)
+                members.create_virtual_dataset("TransformParameters", layout)
+        raises(OSError, words, brainshift.read_transform, other)
 
 
 def test_points_go_through_transforms_on_a_server():

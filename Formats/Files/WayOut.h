@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// What a user can do about a file that is refused.
+#ifndef BrainShift_WayOut_h
+#define BrainShift_WayOut_h
+
+#include "Common/Problem.h"
+
+#include <string>
+
+namespace brainshift
+{
+/**
+ * A reason with a way out at its end, unless it has one: what stands behind a semicolon or a full
+ * stop. Whoever stopped the work needs none.
+ */
+std::string withWayOut(const std::string& reason, const std::string& wayOut);
+
+/** Reads a file, as withBeginning does. A reason without a way out gets one. */
+template <typename Step>
+decltype(auto) withWayOut(const std::string& beginning, const std::string& wayOut, const Step& step)
+{
+  try
+  {
+    return step();
+  }
+  catch (const Problem& problem)
+  {
+    throw Problem(beginning + withWayOut(problem.what(), wayOut));
+  }
+}
+}
+
+#endif
