@@ -23,6 +23,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <string>
 
 namespace brainshift
 {
@@ -86,9 +87,19 @@ vtkSmartPointer<vtkSMProxy> makeLatticeFilter(
   return made;
 }
 
-void registerQuietly(vtkSMProxy* made)
+void registerQuietly(vtkSMProxy* made, const char* what)
 {
-  made->SetLogName(made->GetSessionProxyManager()->RegisterProxy("sources", made).c_str());
+  vtkSMSessionProxyManager* manager = made->GetSessionProxyManager();
+  const char* volume =
+    manager->GetProxyName("sources", vtkSMPropertyHelper(made, "Input").GetAsProxy());
+  const std::string name = (volume ? volume + std::string(" ") : std::string()) + what;
+  std::string free = name;
+  for (int number = 2; manager->GetProxy("sources", free.c_str()); ++number)
+  {
+    free = name + " " + std::to_string(number);
+  }
+  manager->RegisterProxy("sources", free.c_str(), made);
+  made->SetLogName(free.c_str());
 }
 
 void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers)
@@ -217,7 +228,7 @@ void FitEditor::make()
   const vtkSmartPointer<vtkSMProxy> made = this->prepare();
   {
     SM_SCOPED_TRACE(RegisterPipelineProxy).arg("proxy", made);
-    registerQuietly(made);
+    registerQuietly(made, "fit");
   }
   SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Source->getProxy());
   this->setLattice(made);
@@ -271,7 +282,7 @@ void FitEditor::begin(const char* list, const Numbers& underHand)
   {
     SCOPED_UNDO_EXCLUDE(); // the temporary fit is neither undone nor traced
     const vtkSmartPointer<vtkSMProxy> made = this->prepare();
-    registerQuietly(made);
+    registerQuietly(made, "fit");
     this->setLattice(made);
   }
   this->Editing = true;

@@ -35,8 +35,9 @@ namespace brainshift
 vtkSmartPointer<vtkSMProxy> makeLatticeFilter(
   vtkSMProxy* deformation, const char* kind, vtkSMProxy* base = nullptr);
 
-/// Registers a new filter in the pipeline. The controller would make it the active source as well.
-void registerQuietly(vtkSMProxy* made);
+/// Registers a new filter in the pipeline, named for its Input and `what` it is: "T1 refined". The
+/// controller would make it the active source as well.
+void registerQuietly(vtkSMProxy* made, const char* what);
 
 /// Sets all elements of a property; none empties it.
 void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers);

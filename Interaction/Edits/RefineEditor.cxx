@@ -284,7 +284,7 @@ void RefineEditor::hold()
   this->Strokes = vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetDoubleArray();
   const vtkSmartPointer<vtkSMProxy> made =
     makeLatticeFilter(this->Source->getProxy(), "RefinedLattice");
-  registerQuietly(made);
+  registerQuietly(made, "refined");
   this->Held = made;
   this->putIn(made, this->Start);
 }
@@ -391,7 +391,7 @@ void RefineEditor::putResult()
     {
       lattice = makeLatticeFilter(deformation, "RefinedLattice");
       SM_SCOPED_TRACE(RegisterPipelineProxy).arg("proxy", lattice);
-      registerQuietly(lattice);
+      registerQuietly(lattice, "refined");
     }
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", deformation);
     this->putIn(lattice, this->Points);

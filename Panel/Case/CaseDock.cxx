@@ -37,6 +37,7 @@
 #include <QMainWindow>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSignalBlocker>
 #include <QStringList>
 #include <QTimer>
@@ -69,6 +70,32 @@ QPushButton* makePush(const char* name, const QString& text, const QString& tip)
   button->setToolTip(tip);
   return button;
 }
+
+// Scrolls up and down only, so it is never narrower than what it holds, which would be cut.
+class UprightScroll : public QScrollArea
+{
+public:
+  QSize minimumSizeHint() const override
+  {
+    QSize size = QScrollArea::minimumSizeHint();
+    if (this->widget())
+    {
+      size.setWidth(
+        this->widget()->minimumSizeHint().width() + this->verticalScrollBar()->sizeHint().width());
+    }
+    return size;
+  }
+
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override
+  {
+    if (watched == this->widget() && event->type() == QEvent::LayoutRequest)
+    {
+      this->updateGeometry();
+    }
+    return QScrollArea::eventFilter(watched, event);
+  }
+};
 
 // A heading, and the layout under it.
 QVBoxLayout* addGroup(QVBoxLayout* layout, const QString& title)
@@ -119,7 +146,7 @@ CaseDock::CaseDock(QWidget* parent)
   this->addRoles(layout);
   this->addSteps(layout);
   layout->addStretch(1);
-  auto scroll = new QScrollArea;
+  auto scroll = new UprightScroll;
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -7,8 +7,8 @@ import uuid
 
 from .arguments import positive, vector
 from .casesources import (
-    MARK, OPENED, RESULT, SETTING, digest_of, free_name, give_name, inputs_of, kept, marks, opened,
-    require_kind, settings_at, sources, stem, upstream, values_of)
+    MARK, OPENED, RESULT, SETTING, digest_of, doubt_about_files, free_name, give_name, inputs_of,
+    kept, marks, opened, require_kind, settings_at, sources, stem, upstream, values_of)
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
 from .grids import shapes_of
@@ -401,6 +401,7 @@ class Case(Steps, Moments, TimedTraces, Resections):
             if source.SMProxy.HasAnnotation(OPENED) and not marks(source):  # it is new
                 self._unnamed.append((source, name or stem(source)))
             source.SMProxy.SetAnnotation(self._key(role), "1")
+            doubt_about_files(source)  # from now on
 
     def _delete_loose(self):
         """Deletes sources of former roles that nothing uses, and then those that these used."""

@@ -24,6 +24,9 @@ FILE_PROPERTIES = ("FileName", "FileNames")
 #: By path: until when it is not looked at again, and what was found. See `_written`.
 _seen = {}
 
+#: By the number of a source that reads files: when it read them, and when they were written then.
+_read = {}
+
 #: Roles that points have. All others are volumes.
 POINT_ROLES = ("traces", "landmarks", "measured", "electrodes")
 
@@ -44,17 +47,22 @@ def free_name(name):
     return next(each for each in itertools.chain([name], others) if each not in taken)
 
 
-def stem(source):
-    """The name of a source's file without its ending, or the name of the source."""
+def name_of(source):
+    """The name of a source in the pipeline; empty if it has none."""
     from paraview import servermanager
 
+    return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or ""
+
+
+def stem(source):
+    """The name of a source's file without its ending, or the name of the source."""
     for name in FILE_PROPERTIES:
         value = getattr(source, name, None)
         if value:
             path = value if isinstance(value, str) else value[0]
             base = os.path.basename(os.path.normpath(path))
             return base[:len(base) - len(ending(path))] if ending(path) else base
-    return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or "volume"
+    return name_of(source) or "volume"
 
 
 def give_name(source, name=None):
@@ -141,7 +149,6 @@ def values_of(source):
     """What a source was told, to see whether it changed: its identity, its properties, and when its
     files were written."""
     found = [source.SMProxy.GetGlobalIDAsString()]
-    is_dicom = source.SMProxy.GetXMLName().startswith("DICOM")  # which reads a file's whole folder
     for name in source.ListProperties():
         own = source.SMProxy.GetProperty(name)
         if own is None or own.GetInformationOnly() or name == "Evidence":  # which moves nothing
@@ -152,9 +159,7 @@ def values_of(source):
                      for i in range(own.GetNumberOfProxies())]
         found.append((name, str(value)))
         if name.endswith(FILE_PROPERTIES):
-            found.append((f"{name} written", [
-                _written(os.path.dirname(path) if is_dicom and os.path.isfile(path) else path)
-                for path in _list_of(value)]))
+            found.append((f"{name} written", _written_by(source, _list_of(value))))
     return found
 
 
@@ -164,12 +169,37 @@ def _list_of(value):
 
 def paths_of(source):
     """The paths of the files of a source, or of the source that its points were chosen from."""
+    return _reader_and_paths(source)[1]
+
+
+def _reader_and_paths(source):
     for each in (source, *upstream(source)):
         value = next((getattr(each, name) for name in FILE_PROPERTIES
                       if getattr(each, name, None)), None)
         if value:
-            return _list_of(value)
-    return []
+            return each, _list_of(value)
+    return None, []
+
+
+def doubt_about_files(source):
+    """A sentence without names, which reports show, if the files of a source were written, or went
+    away, after it read them; else empty, as for files on a server. The first call takes them as
+    they are."""
+    reader, paths = _reader_and_paths(source)
+    algorithm = reader.GetClientSideObject() if reader else None
+    if algorithm is None:
+        return ""
+    when = algorithm.GetOutputDataObject(0).GetUpdateTime()
+    written = _written_by(reader, paths)
+    former, then = _read.setdefault(reader.SMProxy.GetGlobalID(), (when, written))
+    if former != when:  # it read them again
+        _read[reader.SMProxy.GetGlobalID()], then = (when, written), written
+    if written == then:
+        return ""
+    if any(before and not now for now, before in zip(written, then)):
+        return "its file is gone; what is shown was read before"
+    return ("its file was written after it was read: choose it again, or press F5 (File > Reload "
+            "Files)")
 
 
 def digest_of(state):
@@ -180,6 +210,14 @@ def digest_of(state):
     for i, values in enumerate(sources_of):
         text = text.replace(f"'{values[0]}'", f"'#{i}'")
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _written_by(source, paths):
+    """When the files at paths that a source reads were written: for each path what `_written`
+    returns."""
+    is_dicom = source.SMProxy.GetXMLName().startswith("DICOM")  # which reads a file's whole folder
+    return [_written(os.path.dirname(path) if is_dicom and os.path.isfile(path) else path)
+            for path in paths]
 
 
 def _written(path):

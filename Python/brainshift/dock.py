@@ -10,7 +10,7 @@ import os
 import traceback
 
 from .cases import Case
-from .casesources import OPENED, POINT_ROLES, give_name, sources
+from .casesources import OPENED, POINT_ROLES, give_name, name_of, sources
 from .points import read_from
 from .roles import ROLES, ending, holds_both, paired, proposed
 from .scenes import turn_to_opening
@@ -105,9 +105,7 @@ def _source(number):
 
 
 def _name(source):
-    from paraview import servermanager
-
-    return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or "a source"
+    return name_of(source) or "a source"
 
 
 def _number(source):

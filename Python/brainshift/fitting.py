@@ -127,8 +127,8 @@ class Fit:
         cosine = (numpy.trace(self.rigid[:3, :3]) - 1.0) / 2.0
         degrees = numpy.degrees(numpy.arccos(numpy.clip(cosine, -1.0, 1.0)))
         words.append(f"rotation {degrees:.1f} degrees")
-        words.append(f"share {self.share:.2f}")
-        words.append(f"calibration {self.calibration:.2f}")
+        words.append(f"applied {100.0 * self.share:.3g} %")
+        words.append(f"deviations x {self.calibration:.2f}")
         return "Fit: " + ", ".join(words) + (f". {self.warning}" if self.warning else "")
 
     @property

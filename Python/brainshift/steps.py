@@ -4,9 +4,11 @@
 import collections
 import os
 
+from .casesources import doubt_about_files
 from .files import figures_of, reason_of
 from .fitting import Fit, is_kind
 from .registering import refined_by
+from .roles import ROLES
 
 STEPS = ("Look", "Measure", "Fit", "By hand", "Refine", "Judge", "Export")
 
@@ -184,9 +186,16 @@ class Steps:
         """
         if self.lacks_bent():
             return []
-        found = [*self._doubts_about_points(), *self._doubts_about_fit(),
-                 *self._doubts_about_reference(), *self._doubts_about_tissue()]
+        found = [*self._doubts_about_files(), *self._doubts_about_points(),
+                 *self._doubts_about_fit(), *self._doubts_about_reference(),
+                 *self._doubts_about_tissue()]
         return [(step, sentence) for step, sentence in found if sentence]
+
+    def _doubts_about_files(self):
+        for role in (*ROLES, "measured"):
+            source = self.part(role)
+            doubt = doubt_about_files(source) if source is not None else ""
+            yield "Look", doubt and f"{role.capitalize()}: {doubt}"
 
     def _doubts_about_points(self):
         if self.lacks_traced():

@@ -397,6 +397,27 @@ def test_results_are_forgotten_when_a_file_of_the_volume_changes():
         assert brainshift.Case.all()[0].judged == "another", "nothing was written since"
 
 
+def test_a_file_that_was_written_after_it_was_read_is_said():
+    points, brain = scratch("later.csv"), scratch("later.nii.gz")
+    shutil.copy(path("pointer.csv"), points)
+    shutil.copy(path("sub-1_brainmask.nii.gz"), brain)
+    clear()
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=brain, traces=points)
+    assert not case.doubts() and "file" not in case.steps[0].found, case.doubts()
+    table(points, ["x", "y", "z"], cap(90).tolist())
+    casesources._seen.clear()  # as a moment later
+    assert case.doubtful() == {"Look"}, case.doubts()
+    assert_says(case.steps[0].found, "Traces: its file was written after it was read")
+    assert "150 of 150" in case.steps[1].found, "those that were read"
+    simple.ReloadFiles(case.traces)
+    assert not case.doubts(), case.doubts()
+    assert "90 of 90" in case.steps[1].found, case.steps[1].found
+    os.remove(brain)
+    casesources._seen.clear()
+    assert_says(case.steps[0].found, "Brain: its file is gone")
+    assert "later" not in case.steps[0].found, "reports show no names"
+
+
 def test_names_come_back_to_their_sources():
     clear()
     files = []

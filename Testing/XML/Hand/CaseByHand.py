@@ -302,6 +302,7 @@ def a_reference_is_refined():
     assert hand.click("BrainShiftCaseRefine")
     window.until(lambda: "finished after" in text_of("Refine"), "the end of the refinement", 120.0)
     settled()
+    assert f"{chosen('Volume')} refined" in names(), names()
 
 
 def files_are_written():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that on a screen at 200 % the stamp acts under the cursor, its outline is as wide to the
-eye as elsewhere, and neither the panel nor the tutorial is cut off.
+eye as elsewhere, and neither the panel, the tutorial nor the dock Case is cut off.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
@@ -85,11 +85,20 @@ def nothing_is_cut_off():
     assert hand.click("TutorialLeave")
 
 
+def the_dock_of_a_case_is_as_wide_as_its_rows():
+    hand.resize_window(900, 700)
+    hand.shortcut("0", hand.ALT)
+    hand.wait(500)
+    assert hand.choose_by_keys("BrainShiftCaseOpening", "Sphere")
+    window.until(lambda: hand.in_sight("BrainShiftCaseSphereRadius"), "the whole row")
+
+
 def play():
     yield (begin,)
     yield (it_is_such_a_screen,)
     yield (the_stamp_acts_under_the_cursor,)
     yield (nothing_is_cut_off,)
+    yield (the_dock_of_a_case_is_as_wide_as_its_rows,)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ def field():
 
 
 def lattices():
-    return [name for name, _ in simple.GetSources() if name.startswith("RefinedLattice")]
+    return [name for name, _ in simple.GetSources() if name.endswith("refined")]
 
 
 def what_is():
@@ -282,7 +282,7 @@ def landmarks_judge_it():
         simple.Delete(fit)
         for name, number in simple.GetSources():
             source = simple.FindSource(name)
-            if name.startswith("RefinedLattice") and source.SMProxy is not former.SMProxy:
+            if "refined" in name and source.SMProxy is not former.SMProxy:
                 simple.Delete(source)
         simple.SetActiveSource(deformation())
     hand.wait(200)
