@@ -3,6 +3,7 @@
 
 #include "Interaction/Cases/SlicerScenes.h"
 #include "Interaction/Displays/EvidenceSwitch.h"
+#include "Interaction/Displays/FinerDetail.h"
 #include "Interaction/Landmarks/LandmarkMarks.h"
 #include "Interaction/ToolCarrier.h"
 #include "Interaction/ToolKeys.h"
@@ -99,6 +100,7 @@ void BrainShiftBehavior::onStartup()
   new brainshift::ComparisonLegend(this);
   new brainshift::SlicerScenes(this);
   new brainshift::EvidenceSwitch(this);
+  new brainshift::FinerDetail(this);
   this->Hand = new brainshift::ToolCarrier(this);
   new brainshift::ToolKeys(this->Hand);
 }

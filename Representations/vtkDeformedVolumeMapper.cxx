@@ -319,6 +319,7 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   tissue.property = property;
   tissue.values = values;
   tissue.stepMm = this->StepOn(values.grid);
+  tissue.usualStep = this->SampleDistance <= 0.0;
   tissue.blend = blendOf(this, property);
   tissue.opacity = opacityOf(this, property, values.scalars);
   tissue.range =
@@ -336,20 +337,19 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   return tissue;
 }
 
-// mm. A ray through all of a volume takes a limited number of samples, so that a picture ends.
+// mm.
 double vtkDeformedVolumeMapper::StepOn(const Grid& grid)
 {
-  constexpr double MostSamples = 8192.0;
   const glm::dvec3& side = grid.spacing;
   const double asked =
     this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * std::min({ side.x, side.y, side.z });
   const double longest = glm::length(side * glm::dvec3(grid.dimensions));
-  const double step = std::clamp(asked, longest / MostSamples, longest);
+  const double step = std::clamp(asked, longest / MostSamplesOfRay, longest);
   if (step > asked)
   {
     std::ostringstream remark;
     remark << "Sample Distance is " << asked << " mm; a ray of " << roundedText(longest)
-           << " mm takes at most " << MostSamples << " samples, so it is drawn with "
+           << " mm takes at most " << MostSamplesOfRay << " samples, so it is drawn with "
            << roundedText(step) << " mm";
     this->TellOnce(remark.str());
   }
@@ -500,6 +500,16 @@ void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
+const Counters& vtkDeformedVolumeMapper::CountDetail()
+{
+  Counters& count = this->Internal->Count;
+  count.gpuLevel = -1;
+  count.gpuBricks = count.gpuBricksWanted = count.gpuBricksLackRoom = 0;
+  this->Internal->Devices.visitAnyhow(
+    [&](const VolumeDevice& device) { device.bricks().count(count); });
+  return count;
+}
+
 // What the GPU holds is asked for here and not in every picture: the driver's answers may make it
 // wait for the GPU.
 const Counters& vtkDeformedVolumeMapper::GetCounters()
@@ -507,6 +517,7 @@ const Counters& vtkDeformedVolumeMapper::GetCounters()
   Counters& count = this->Internal->Count;
   count.gpuScalarBytes = 0;
   count.gpuOtherBytes = 0;
+  this->CountDetail();
   this->Internal->Devices.visit([&](VolumeDevice& device) { device.addHeldBytes(count); });
   return count;
 }

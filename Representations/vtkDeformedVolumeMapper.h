@@ -258,6 +258,10 @@ public:
   /** Counts of the mapper's work since it was made, and its memory on the GPU now. */
   const brainshift::Counters& GetCounters();
 
+  /** The same, with what finer levels (Representations/Bricks) give to the picture up to date, and
+   * no question to the GPU. */
+  const brainshift::Counters& CountDetail();
+
 protected:
   vtkDeformedVolumeMapper();
   ~vtkDeformedVolumeMapper() override;

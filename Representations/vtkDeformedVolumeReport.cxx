@@ -217,6 +217,17 @@ double* vtkDeformedVolumeReport::GetSameTissue()
   return this->SameTissue;
 }
 
+int* vtkDeformedVolumeReport::GetDetail()
+{
+  vtkDeformedVolumeMapper* mapper = this->Mapper();
+  const brainshift::Counters& count = mapper ? mapper->CountDetail() : brainshift::Counters();
+  this->Detail[0] = static_cast<int>(count.gpuLevel);
+  this->Detail[1] = static_cast<int>(count.gpuBricks);
+  this->Detail[2] = static_cast<int>(count.gpuBricksWanted);
+  this->Detail[3] = count.gpuBricksLackRoom > 0 ? 1 : 0;
+  return this->Detail;
+}
+
 const char* vtkDeformedVolumeReport::GetCounters()
 {
   vtkDeformedVolumeMapper* mapper = this->Mapper();
@@ -236,7 +247,9 @@ const char* vtkDeformedVolumeReport::GetCounters()
        << "\nsamplesTaken " << count.samplesTaken << "\nsamplesSkipped " << count.samplesSkipped
        << "\nimageScale " << count.imageScale << "\nprogramsCompiled " << count.programsCompiled
        << "\ngpuScalarBytes " << count.gpuScalarBytes << "\ngpuOtherBytes " << count.gpuOtherBytes
-       << "\ngpuVoxelsPerTexel " << count.gpuVoxelsPerTexel << "\ngpuFieldMicroseconds "
+       << "\ngpuVoxelsPerTexel " << count.gpuVoxelsPerTexel << "\ngpuLevel " << count.gpuLevel
+       << "\ngpuBricks " << count.gpuBricks << "\ngpuBricksWanted " << count.gpuBricksWanted
+       << "\ngpuBricksLackRoom " << count.gpuBricksLackRoom << "\ngpuFieldMicroseconds "
        << count.gpuFieldMicroseconds;
   this->Counters = text.str();
   return this->Counters.c_str();

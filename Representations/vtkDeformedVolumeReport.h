@@ -97,6 +97,13 @@ public:
    */
   const char* GetCounters();
 
+  /**
+   * Four numbers on what a Deformed Volume draws of a finer level: the level, -1: none; bricks that
+   * are there; bricks that are still to come, 0: a further picture would be the same; 1 if the view
+   * has more than there is room for, or 0. Nothing is drawn.
+   */
+  int* GetDetail() VTK_SIZEHINT(4);
+
   ///@{
   /** Of Deformed Slices, see vtkDeformedSlicesMapper. Zeros if something else is shown. */
   double* GetSliceNormals() VTK_SIZEHINT(9);
@@ -132,6 +139,7 @@ private:
   double SameTissue[3] = {};
   double SliceNormals[9] = {};
   double VoxelSteps[3] = {};
+  int Detail[4] = {};
   std::string Counters;
 };
 

@@ -8,7 +8,7 @@
 #include "Formats/OMEZarr/CoarserVoxels.h"
 #include "Formats/OMEZarr/OMEImage.h"
 #include "Formats/OMEZarr/ZarrBox.h"
-#include "Formats/Volumes/VolumeFile.h"
+#include "Formats/Volumes/FinerLevels.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
@@ -442,9 +442,16 @@ private:
     text("OMEZarrStore", fileName);
     text("OMEZarrImage", choice.name);
     vtkNew<vtkIntArray> level;
-    level->SetName("OMEZarrLevel");
+    level->SetName(LevelArray);
     level->InsertNextValue(static_cast<int>(this->Level));
     header.attached.emplace_back(level.Get());
+    vtkNew<vtkTypeInt64Array> chunk;
+    chunk->SetName(ChunkArray);
+    for (const int axis : this->Image.axes.space)
+    {
+      chunk->InsertNextValue(at(this->Image.levels[this->Level].array.chunk, axis, 1));
+    }
+    header.attached.emplace_back(chunk.Get());
     vtkNew<vtkTypeInt64Array> sizes;
     sizes->SetName("OMEZarrLevelSizes");
     sizes->SetNumberOfComponents(3);

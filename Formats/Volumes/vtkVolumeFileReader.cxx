@@ -5,7 +5,7 @@
 #include "Common/ImageGrid.h"
 #include "Common/SharedArray.h"
 #include "Common/WorldAxes.h"
-#include "Formats/Volumes/PlacedVolume.h"
+#include "Formats/Volumes/FinerLevels.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -490,6 +490,10 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   attachMeaning(shown, this->Stored->header());
   attachFacts(this->Stored->header(), shown);
   brainshift::SharedArrays().share(shown->GetPointData());
+  brainshift::rememberLevels(shown->GetPointData()->GetScalars(),
+    { this->Taken, this->FileName, this->Choice, 0, this->Channel, volume,
+      affineOfRows(this->WorldFromFile) },
+    this->Stored->header());
   this->rememberLast(information);
   return 1;
 }

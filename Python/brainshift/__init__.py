@@ -13,7 +13,7 @@ was loaded. The *deformed frame* is the volume as it is drawn.
 Research software, not a medical device.
 """
 
-from .answers import counters, gpu, pick, slice_axes
+from .answers import counters, draw_detail, gpu, pick, slice_axes
 from .batching import Done, batch
 from .cases import Case
 from .directions import MapDirection, direction
@@ -43,11 +43,12 @@ from .windows import percentile_window
 
 __all__ = [
     "Alignment", "Case", "Done", "ElectrodeGrid", "Electrodes", "Fit", "MOVE", "MapDirection",
-    "NUMBERS_PER_STROKE", "OpenedScene", "Refinement", "RegistrationFailed", "Resection", "SOFT",
-    "STAMP", "Step", "TargetErrors", "Transform", "align", "animate", "apply_transform", "batch",
-    "counters", "deformed_from_rest", "dicom_patient", "direction", "electrodes", "figure", "fit",
-    "four_views", "gpu", "load_field", "load_lattice", "look", "looks", "map_points", "move",
-    "open_sample", "open_scene", "percentile_window", "pick", "pyramid", "read_points",
-    "read_transform", "refine", "report", "resect", "rest_from_deformed", "save_dicom",
-    "save_field", "save_lattice", "save_scene", "save_segmentation", "save_transform",
-    "save_volume", "show_comparison", "similarities", "slice_axes", "soft", "stamp", "tre"]
+    "NUMBERS_PER_STROKE", "OpenedScene", "Refinement", "RegistrationFailed", "Resection",
+    "SOFT", "STAMP", "Step", "TargetErrors", "Transform", "align", "animate", "apply_transform",
+    "batch", "counters", "deformed_from_rest", "dicom_patient", "direction", "draw_detail",
+    "electrodes", "figure", "fit", "four_views", "gpu", "load_field", "load_lattice", "look",
+    "looks", "map_points", "move", "open_sample", "open_scene", "percentile_window", "pick",
+    "pyramid", "read_points", "read_transform", "refine", "report", "resect",
+    "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_scene",
+    "save_segmentation", "save_transform", "save_volume", "show_comparison", "similarities",
+    "slice_axes", "soft", "stamp", "tre"]

@@ -4,6 +4,8 @@
 The process that draws computes them, so they are right with a server too.
 """
 
+import time
+
 REPRESENTATIONS = ("Deformed Volume", "Deformed Slices")
 
 
@@ -117,6 +119,11 @@ def gpu(representation):
     - `gpuScalarBytes`: bytes of the voxels
     - `gpuOtherBytes`: bytes of all other textures and buffers, including those of picture size
     - `gpuVoxelsPerTexel`: voxels that one value stands for; 1: there is memory for each of them
+    - `gpuLevel`: the finer level of an OME-Zarr store of which bricks are drawn; -1: none
+    - `gpuBricks`: bricks of it that are drawn where rays meet them, in all views
+    - `gpuBricksWanted`: bricks that are still to come, at least 1 while there may be some; 0: each
+      view is complete, or has as many as its memory holds
+    - `gpuBricksLackRoom`: views with more bricks than their memory holds
     - `gpuFieldMicroseconds`: microseconds of the last computation from control points to offset
       field, or 0 if the driver does not measure it
 
@@ -124,3 +131,25 @@ def gpu(representation):
     """
     numbers = _numbers(representation)
     return {name: number for name, number in numbers.items() if name.startswith("gpu")}
+
+
+def draw_detail(view, representation, seconds=60.0):
+    """Draw a view again and again until it shows all detail that it gets of a large volume.
+
+    - `view`: a render view.
+    - `representation`: a display that is drawn as Deformed Volume in it.
+    - `seconds`: the longest time to wait, s. Default 60.
+
+    Returns what `gpu` returns then. A volume that is read at its finest level takes one picture.
+    Raises `ValueError` if `representation` is drawn in another way, `RuntimeError` after `seconds`.
+    """
+    end = time.monotonic() + seconds
+    while True:
+        view.SMProxy.StillRender()
+        now = gpu(representation)
+        if now["gpuBricksWanted"] == 0:
+            return now
+        if time.monotonic() > end:
+            raise RuntimeError(f"{now['gpuBricksWanted']} bricks of level {now['gpuLevel']} are "
+                               f"still to come after {seconds} s; give more seconds")
+        time.sleep(0.02)  # for the thread that reads

@@ -53,6 +53,7 @@
 #include "shader_slices_vert.h"
 #include "shader_smooth_occlusion_frag.h"
 #include "shader_steepness.h"
+#include "shader_streamed.h"
 #include "shader_tissue.h"
 #include "shader_traces_frag.h"
 #include "shader_traces_over_frag.h"
@@ -176,7 +177,16 @@ std::string nameOf(const RayCastVariant& variant)
     (variant.sharedLight ? "_shared_light" : "") + (variant.averaged ? "_averaged" : "") +
     (variant.compared ? "_compared" : "") + (variant.cavity ? "_cavity" : "") +
     opacities[static_cast<int>(variant.opacity)] + (variant.evidence ? "_evidence" : "") +
-    (variant.removed ? "_removed" : "") + (variant.tumour ? "_tumour" : "");
+    (variant.removed ? "_removed" : "") + (variant.tumour ? "_tumour" : "") +
+    (variant.streamed ? "_streamed" : "");
+}
+
+// Where bricks of a finer level are drawn, rays ask for others in the target that counts samples.
+std::string streamedDefines(const RayCastVariant& variant)
+{
+  return !variant.streamed ? ""
+                           : "#define STREAMED\n" + floatDefine("BRICK_SIDE", StreamedSide) +
+      floatDefine("BRICK_BORDER", SlotBorder) + (variant.asks() ? "#define WISHES\n" : "");
 }
 }
 
@@ -239,9 +249,11 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += opacityDefines(variant.opacity);
   defines += variant.evidence ? "#define EVIDENCE\n" : "";
   defines += resectionDefines(variant.removed, variant.tumour);
+  defines += streamedDefines(variant);
   return { outlineStage(), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
-      shader_gradient, shader_segment, shader_tissue, shader_cut, shader_resection,
+      shader_gradient, shader_segment, shader_tissue,
+      variant.streamed ? std::string(shader_streamed) : "", shader_cut, shader_resection,
       shader_components, shader_evidence, shader_light,
       variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast,
       loopSource(variant) }) };
@@ -369,6 +381,19 @@ void addSteep(NamedSources& sources, bool deformed)
   }
 }
 
+// The ray caster of a volume of which bricks of a finer level are drawn.
+void addStreamed(NamedSources& sources, bool deformed)
+{
+  for (const auto light : { RayCastVariant::Unshaded, RayCastVariant::GradientsOnTheFly })
+  {
+    RayCastVariant streamed{ deformed, light };
+    streamed.streamed = true;
+    add(sources, streamed);
+    streamed.averaged = streamed.counted = true;
+    add(sources, streamed);
+  }
+}
+
 // The ray caster of a volume whose fit has an uncertainty.
 void addEvidence(NamedSources& sources)
 {
@@ -433,6 +458,7 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     addAlone(sources, deformed);
     addSteep(sources, deformed);
     addCompared(sources, deformed);
+    addStreamed(sources, deformed);
   }
   addEvidence(sources);
   addResected(sources);

@@ -34,6 +34,9 @@ constexpr int CodeOfSlot = 16;  ///< A cell's code: this times its first slot, p
 constexpr int CorrectionLayerBytes = SlotsInRow * RowsInLayer * SlotSide * SlotSide * SlotSide * 8;
 ///@}
 
+constexpr int StreamedSide = 32; ///< Voxels of a brick of a finer level, a side.
+constexpr int SlotBorder = 1;    ///< Voxels of its neighbours around it, for interpolation.
+
 constexpr int MaxClipPlanes = 16;
 constexpr int MaxIsovalues = 32;
 
@@ -102,6 +105,10 @@ struct RayCastVariant
   bool evidence = false;             ///< Evidence is shown; Composite, Isosurface and Slice only.
   bool removed = false;              ///< Tissue of a resection is left out.
   bool tumour = false;               ///< The tumour of a resection is marked.
+  bool streamed = false; ///< Bricks of a finer level; Composite, Mapped, no other opacity, alone.
+
+  /// Whether rays ask for bricks.
+  bool asks() const { return this->streamed && !this->counted; }
 
   bool operator<(const RayCastVariant& other) const
   {
@@ -109,7 +116,7 @@ struct RayCastVariant
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
         variant.regions, variant.segmented, variant.counted, variant.sharedLight, variant.averaged,
         variant.compared, variant.cavity, variant.opacity, variant.evidence, variant.removed,
-        variant.tumour);
+        variant.tumour, variant.streamed);
     };
     return key(*this) < key(other);
   }

@@ -63,6 +63,16 @@ public:
     }
   }
 
+  /// Calls visit(device) for each window. No OpenGL context is current.
+  template <typename Visit>
+  void visitAnyhow(const Visit& visit)
+  {
+    for (auto& [key, entry] : this->Entries)
+    {
+      visit(entry.device);
+    }
+  }
+
 private:
   struct Entry
   {

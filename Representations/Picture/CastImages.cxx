@@ -6,6 +6,8 @@
 
 #include "vtkOpenGLRenderWindow.h"
 
+#include <utility>
+
 namespace brainshift
 {
 vtkSmartPointer<vtkTextureObject> makeImage(
@@ -65,7 +67,8 @@ bool CastImages::prepare(vtkOpenGLRenderWindow* window, const RayCastScene& scen
   return true;
 }
 
-void CastImages::attach(ImageScope& scope, const RayCastScene& scene, bool part, bool counted)
+void CastImages::attach(
+  ImageScope& scope, const RayCastScene& scene, bool part, const RayCastVariant& variant)
 {
   FirstHits& hits = this->Hits[scene.frame.tile];
   scope.attach(0, this->Image);
@@ -76,9 +79,15 @@ void CastImages::attach(ImageScope& scope, const RayCastScene& scene, bool part,
     hits.frustum = frustumOf(scene.frame.clipFromWorld);
     this->DrewTile = scene.frame.tile;
   }
-  if (counted)
+  if (variant.counted)
   {
     scope.attach(2, this->Count);
+  }
+  if (variant.asks())
+  {
+    scope.attach(2, this->Wishes);
+    this->clear(2);
+    this->HasWishes = true;
   }
   this->Filled = part ? enclosing(this->Filled, scene.image.part.box) : scene.image.part.box;
   this->HitsFilled[scene.frame.tile] = this->Filled;
@@ -114,7 +123,7 @@ void CastImages::clearStale(const RayCastScene& scene)
   }
 }
 
-// Clears all of the attached picture (0) or hits (1).
+// Clears all of the attached picture (0), hits (1) or wishes (2).
 void CastImages::clear(unsigned int target)
 {
   const float nothing = target == 0 ? 0.0f : -1.0f;
@@ -174,6 +183,28 @@ bool CastImages::prepareCount(vtkOpenGLRenderWindow* window)
   this->Count->SetContext(window);
   std::vector<float> zeros(static_cast<std::size_t>(size.x) * size.y * 4, 0.0f);
   return this->Count->Create2DFromRaw(size.x, size.y, 4, VTK_FLOAT, zeros.data());
+}
+
+bool CastImages::prepareWishes(vtkOpenGLRenderWindow* window)
+{
+  if (!this->Wishes || !sameSize(this->Wishes, this->Area.size))
+  {
+    this->Wishes = makeImage(window, this->Area.size, GL_RG32F, vtkTextureObject::Nearest);
+  }
+  return this->Wishes != nullptr;
+}
+
+std::vector<glm::vec2> CastImages::takeWishes()
+{
+  std::vector<glm::vec2> wishes;
+  if (std::exchange(this->HasWishes, false) && this->Wishes)
+  {
+    wishes.resize(static_cast<std::size_t>(this->Wishes->GetWidth()) * this->Wishes->GetHeight());
+    this->Wishes->Activate();
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RG, GL_FLOAT, wishes.data());
+    this->Wishes->Deactivate();
+  }
+  return wishes;
 }
 
 void CastImages::readCount(Counters& counters)
@@ -305,8 +336,8 @@ bool CastImages::enlarge(
 
 void CastImages::releaseGraphicsResources(vtkWindow* window)
 {
-  for (auto* image :
-    { &this->Image, &this->Hits[0].texture, &this->Hits[1].texture, &this->Count, &this->Spans })
+  for (auto* image : { &this->Image, &this->Hits[0].texture, &this->Hits[1].texture, &this->Count,
+         &this->Spans, &this->Wishes })
   {
     if (*image)
     {

@@ -38,15 +38,23 @@ public:
   /// Makes the image that samples are counted in, all zero. False if the GPU refuses.
   bool prepareCount(vtkOpenGLRenderWindow* window);
 
+  /// Makes the image in which rays ask for bricks. False if the GPU refuses.
+  bool prepareWishes(vtkOpenGLRenderWindow* window);
+
   /// Lets the scene be drawn into the images: as a picture of its own, or as a `part` of the one
-  /// that is held. `counted`: samples are counted.
-  void attach(ImageScope& scope, const RayCastScene& scene, bool part, bool counted);
+  /// that is held. `variant`: of the program.
+  void attach(
+    ImageScope& scope, const RayCastScene& scene, bool part, const RayCastVariant& variant);
 
   /// Draws the pixels of a part, with a program whose vertex stage is outline.vert.glsl.
   void drawPart(Program& program, const PixelPart& part) const;
 
   /// Adds the counted samples to the counters.
   void readCount(Counters& counters);
+
+  /// What the rays that were cast since the last call asked for: two numbers for each pixel, see
+  /// StreamedBricks::finish. Empty if none did.
+  std::vector<glm::vec2> takeWishes();
 
   /// Whether the images hold a whole picture of the scene's size.
   bool hold(const RayCastScene& scene) const;
@@ -100,7 +108,7 @@ public:
   std::vector<vtkTextureObject*> textures() const
   {
     return { this->Image, this->Hits[false].texture, this->Hits[true].texture, this->Count,
-      this->Spans };
+      this->Spans, this->Wishes };
   }
 
   void releaseGraphicsResources(vtkWindow* window);
@@ -121,7 +129,9 @@ private:
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
   vtkSmartPointer<vtkTextureObject> Count; // samples taken and skipped; null unless asked for
   vtkSmartPointer<vtkTextureObject> Spans;
-  Program CompositePrograms[2]; // [occluded]
+  vtkSmartPointer<vtkTextureObject> Wishes; // for bricks; null unless rays ask
+  bool HasWishes = false;                   // that nobody has taken
+  Program CompositePrograms[2];             // [occluded]
   Program EnlargeProgram;
 };
 }

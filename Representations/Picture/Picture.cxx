@@ -86,6 +86,7 @@ void addView(Numbers& numbers, const RayCastScene& scene)
   add(numbers, lights.position);
   add(numbers, lights.color);
   add(numbers, lights.specular);
+  numbers.push_back(scene.bricks.pages ? static_cast<double>(scene.bricks.changes) : -1.0);
   const SceneComparison& comparison = scene.comparison;
   numbers.push_back(scene.tissue.scalars->GetHandle()); // of the volume or of its reference
   if (comparison.reference)

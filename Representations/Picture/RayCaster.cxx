@@ -218,6 +218,27 @@ void setSteepnessUniforms(Program& program, const SceneSteepness& steepness, dou
   }
 }
 
+void setBrickUniforms(Program& program, const RayCastScene& scene, bool asks)
+{
+  const SceneBricks& bricks = scene.bricks;
+  if (!bricks.pages)
+  {
+    return;
+  }
+  program.set("pages", bricks.pages);
+  program.set("atlas", bricks.atlas);
+  program.set("fineFromTexture", glm::vec3(bricks.voxelFromTexture));
+  program.set("fineOfTextureZero", glm::vec3(bricks.voxelOfTextureZero));
+  program.set("fineVoxels", glm::vec3(bricks.voxels));
+  program.set("pagesTexel", texelOf(bricks.pages));
+  program.set("atlasTexel", texelOf(bricks.atlas));
+  if (asks)
+  {
+    program.get()->SetUniform2i("wishSeed", &bricks.seed[0]);
+    program.set("wishReach", glm::vec3(scene.tissue.voxel * bricks.voxelFromTexture));
+  }
+}
+
 glm::mat3 worldFromGradient(const SceneFrame& frame)
 {
   const glm::dmat3 worldFromTexture(frame.worldFromTexture);
@@ -319,6 +340,7 @@ void setRayCastUniforms(
   setCutUniforms(program, scene.cuts);
   setBlendingUniforms(program, scene.tissue.blend, scene.blending);
   setSegmentUniforms(program, scene.tissue.segment);
+  setBrickUniforms(program, scene, !scene.image.countSamples);
   setColoringUniforms(program, scene.tissue.coloring);
   setEvidenceUniforms(program, scene.evidence);
   setResectionUniforms(program, scene.resection);
@@ -331,11 +353,12 @@ void setRayCastUniforms(
 void deactivateTextures(const RayCastScene& scene)
 {
   const SceneTissue& tissue = scene.tissue;
-  for (vtkTextureObject* texture : { tissue.scalars, tissue.normals, tissue.transfer,
-         scene.behind.depth, tissue.coloring.colors, tissue.coloring.scalars,
-         tissue.segment.fractions, scene.skipping.presence->leaps(), scene.comparison.cavity.voxels,
-         tissue.transferSums, tissue.steepness.entries, scene.evidence.deviations,
-         scene.resection.removed.fractions, scene.resection.tumour.fractions })
+  for (vtkTextureObject* texture :
+    { tissue.scalars, tissue.normals, tissue.transfer, scene.behind.depth, tissue.coloring.colors,
+      tissue.coloring.scalars, tissue.segment.fractions, scene.skipping.presence->leaps(),
+      scene.comparison.cavity.voxels, tissue.transferSums, tissue.steepness.entries,
+      scene.evidence.deviations, scene.resection.removed.fractions,
+      scene.resection.tumour.fractions, scene.bricks.pages, scene.bricks.atlas })
   {
     if (texture)
     {
@@ -371,6 +394,7 @@ RayCastVariant variantOf(const RayCastScene& scene)
   variant.evidence = scene.evidence.deviations != nullptr;
   variant.removed = scene.resection.removed.fractions != nullptr;
   variant.tumour = scene.resection.tumour.fractions && !variant.compared;
+  variant.streamed = scene.bricks.pages != nullptr;
   variant.sharedLight =
     tissue.shaded && !variant.averaged && !variant.compared && tissue.raysEndSoon();
   return variant;
@@ -426,6 +450,7 @@ bool RayCaster::draw(
   const RayCastVariant variant = variantOf(scene);
   Program& program = this->CastPrograms[variant];
   if ((variant.counted && !this->Images.prepareCount(window)) ||
+    (variant.asks() && !this->Images.prepareWishes(window)) ||
     (scene.image.skips && !this->findSpans(window, scene, counters)) ||
     !program.use(window, rayCastSource(variant), counters))
   {
@@ -434,7 +459,7 @@ bool RayCaster::draw(
   setRayCastUniforms(program, scene, this->Images.area(), this->Images.spans());
   {
     ImageScope scope(window->GetState(), pixels.box, this->Images.area());
-    this->Images.attach(scope, scene, part, variant.counted);
+    this->Images.attach(scope, scene, part, variant);
     this->Images.drawPart(program, pixels);
   }
   deactivateTextures(scene);

@@ -137,6 +137,7 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
   }
   const bool done =
     this->images().composite(gpu.window, shown, this->Picture.shade(), gpu.counters);
+  this->Bricks.finish(this->images().takeWishes());
   this->Picture.end();
   return done;
 }
@@ -156,14 +157,35 @@ DrawnValues valuesToCrop(const VolumeRequest& request)
 }
 }
 
+// What is drawn of the volume, with the finer level that suits the view.
+TissueRequest VolumeDevice::planBricks(
+  GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, const MemoryNeed& need)
+{
+  TissueRequest tissue = request.tissue;
+  BrickView view{ frameOf(drawn, tissue.values), request.wish.size, 0.0 };
+  if (request.memoryLimitMiB > 0.0)
+  {
+    constexpr double bytesInMiB = 1048576.0;
+    constexpr double leastMiB = 1.0;
+    view.limitMiB =
+      std::max(request.memoryLimitMiB - static_cast<double>(need.total()) / bytesInMiB, leastMiB);
+  }
+  this->Bricks.plan(gpu, view, tissue);
+  return tissue;
+}
+
 // The volume with its offset field and the bricks of the deformed frame.
 bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
   SceneDeformation& deformation, const VolumeRequest& request, RayCastScene& scene)
 {
-  const TissueRequest& tissue = request.tissue;
+  const TissueRequest tissue = this->planBricks(gpu, drawn, request, needOf(request, deformation));
   DeviceDeformation::Change change;
-  if (!this->Tissue.Textures.update(gpu, tissue, scene.tissue) ||
-    !this->Deformation.update(gpu, deformation, tissue.values, scene.field, change))
+  if (!this->Tissue.Textures.update(gpu, tissue, scene.tissue))
+  {
+    return false;
+  }
+  this->Bricks.upload(gpu, this->Tissue.Textures, scene.bricks);
+  if (!this->Deformation.update(gpu, deformation, tissue.values, scene.field, change))
   {
     return false;
   }
@@ -249,7 +271,8 @@ bool VolumeDevice::coverSelection(GpuTask& gpu, vtkRenderer* renderer)
 
 void VolumeDevice::addHeldBytes(Counters& counters)
 {
-  counters.gpuScalarBytes += textureBytes(this->Tissue.Textures.scalars());
+  counters.gpuScalarBytes +=
+    textureBytes(this->Tissue.Textures.scalars()) + textureBytes({ this->Bricks.textures() });
   counters.gpuOtherBytes += this->Tissue.otherBytes() + this->Reference.bytes() +
     textureBytes({ this->Deformation.field().textures(), this->Picture.textures(),
       { this->Evidence.texture() }, this->Resected.textures() });
@@ -258,6 +281,7 @@ void VolumeDevice::addHeldBytes(Counters& counters)
 
 void VolumeDevice::Release(vtkWindow* window)
 {
+  this->Bricks.release(window);
   this->Tissue.releaseGraphicsResources(window);
   this->Reference.releaseGraphicsResources(window);
   this->Deformation.releaseGraphicsResources(window);

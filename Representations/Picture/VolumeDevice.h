@@ -4,6 +4,7 @@
 #ifndef BrainShift_VolumeDevice_h
 #define BrainShift_VolumeDevice_h
 
+#include "Representations/Bricks/StreamedBricks.h"
 #include "Representations/Field/EvidenceTexture.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Picture/Picture.h"
@@ -49,6 +50,9 @@ public:
 
   CastImages& images() { return this->Picture.images(); }
 
+  /// Bricks of a finer level.
+  const StreamedBricks& bricks() const { return this->Bricks; }
+
   /// Adds to the counters what is held on the GPU, which may make it wait.
   void addHeldBytes(Counters& counters);
 
@@ -60,6 +64,8 @@ private:
     const VolumeRequest& request);
   bool uploadVolume(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
     const VolumeRequest& request, RayCastScene& scene);
+  TissueRequest planBricks(
+    GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, const MemoryNeed& need);
   bool uploadReference(
     GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, RayCastScene& scene);
   void compare(GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request,
@@ -75,6 +81,7 @@ private:
   SelectionCover Cover;
   GpuMemory Memory;
   FinestLevel Level;
+  StreamedBricks Bricks;
 };
 }
 

@@ -118,6 +118,18 @@ struct SceneTissue
   bool raysEndSoon() const { return this->opaque && this->blend == Blend::Composite; }
 };
 
+/// Bricks of a finer level of the volume. Filled by StreamedBricks::upload.
+struct SceneBricks
+{
+  vtkTextureObject* pages = nullptr; ///< Null: no finer level is drawn.
+  vtkTextureObject* atlas = nullptr;
+  glm::dvec3 voxels{ 0.0 };           ///< Of the finer level, a side.
+  glm::dvec3 voxelFromTexture{ 1.0 }; ///< Its voxels.
+  glm::dvec3 voxelOfTextureZero{ 0.0 };
+  glm::ivec2 seed{ 0 };     ///< Which bricks rays ask for, of several.
+  std::int64_t changes = 0; ///< Counts changes of what is there.
+};
+
 /// Bricks of the deformed frame in which something can be seen. Filled by
 /// DeviceTissue::updateBricks.
 struct SceneSkipping
@@ -215,6 +227,7 @@ struct RayCastScene
   SceneFrame frame;
   SceneField field;
   SceneTissue tissue;
+  SceneBricks bricks;
   SceneSkipping skipping;
   SceneCuts cuts;
   SceneBlending blending;

@@ -88,6 +88,48 @@ bool fitsSixteenBits(vtkDataArray* scalars, int component)
   return component >= 0 && scalars->GetDataTypeSize() <= 2;
 }
 
+// Whole numbers of one or two bytes: stored from the type's lowest value up; eight bits spread over
+// sixteen.
+class SixteenBits
+{
+public:
+  explicit SixteenBits(vtkDataArray* scalars)
+    : Lowest(static_cast<int>(scalars->GetDataTypeMin()))
+    , Spread(scalars->GetDataTypeSize() == 1 ? 257 : 1)
+  {
+  }
+
+  double scale() const { return 65535.0 / this->Spread; }
+  double shift() const { return this->Lowest; }
+
+  template <typename Value>
+  std::uint16_t operator()(Value value) const
+  {
+    if constexpr (std::is_floating_point_v<Value>) // the mean of several voxels
+    {
+      return static_cast<std::uint16_t>(std::lround((value - this->Lowest) * this->Spread));
+    }
+    else
+    {
+      return static_cast<std::uint16_t>((static_cast<int>(value) - this->Lowest) * this->Spread);
+    }
+  }
+
+private:
+  int Lowest;
+  int Spread;
+};
+
+// As a float texture stores them.
+struct Floats
+{
+  template <typename Value>
+  float operator()(Value value) const
+  {
+    return static_cast<float>(static_cast<double>(value));
+  }
+};
+
 int& texturesGivenBack()
 {
   static int count = 0;
@@ -202,40 +244,61 @@ bool ScalarTexture::uploadFloats(const ScalarSource& source, Counters& counters)
     return this->create(
       static_cast<float*>(scalars->GetVoidPointer(0)), VTK_FLOAT, 1.0f, dimensions, counters);
   }
-  const auto converted = convertAll<float>(
-    source, [](auto value) { return static_cast<float>(static_cast<double>(value)); });
+  const auto converted = convertAll<float>(source, Floats());
   return this->create(converted.get(), VTK_FLOAT, 1.0f, dimensions, counters);
 }
 
-// Whole numbers: stored from the type's lowest value up; eight bits spread over sixteen. Drivers in
-// software read floats 40 % faster, since processors gather those with one instruction.
+// Drivers in software read floats 40 % faster, since processors gather those with one instruction.
 bool ScalarTexture::uploadSixteenBits(const ScalarSource& source, Counters& counters)
 {
-  constexpr float shaderFromStored = 1.0f / 65535.0f;
   vtkDataArray* scalars = source.scalars;
   const glm::ivec3& dimensions = source.layout.dimensions;
-  const int lowest = static_cast<int>(scalars->GetDataTypeMin());
-  const int spread = scalars->GetDataTypeSize() == 1 ? 257 : 1;
-  this->Scale = 65535.0 / spread;
-  this->Shift = lowest;
+  const SixteenBits convert(scalars);
+  this->Scale = convert.scale();
+  this->Shift = convert.shift();
   this->Texture->SetInternalFormat(drawsInSoftware() ? GL_R32F : GL_R16);
   if (scalars->GetDataType() == VTK_UNSIGNED_SHORT && scalars->GetNumberOfComponents() == 1 &&
     source.layout.isWhole())
   {
     return this->create(static_cast<std::uint16_t*>(scalars->GetVoidPointer(0)), VTK_UNSIGNED_SHORT,
-      shaderFromStored, dimensions, counters);
+      ShaderFromSixteenBits, dimensions, counters);
   }
-  const auto converted = convertAll<std::uint16_t>(source, [=](auto value) {
-    if constexpr (std::is_floating_point_v<decltype(value)>) // the mean of several voxels
-    {
-      return static_cast<std::uint16_t>(std::lround((value - lowest) * spread));
-    }
-    else
-    {
-      return static_cast<std::uint16_t>((static_cast<int>(value) - lowest) * spread);
-    }
+  const auto converted = convertAll<std::uint16_t>(source, convert);
+  return this->create(
+    converted.get(), VTK_UNSIGNED_SHORT, ShaderFromSixteenBits, dimensions, counters);
+}
+
+StoredNumbers ScalarTexture::storedNumbers(
+  vtkDataArray* scalars, const glm::ivec3& size, int component)
+{
+  const ValueLayout layout = layoutOf(size, false);
+  const ScalarSource source{ scalars, layout, component, false };
+  const std::size_t count = static_cast<std::size_t>(size.x) * size.y * size.z;
+  StoredNumbers numbers;
+  if (fitsSixteenBits(scalars, component))
+  {
+    const auto converted = convertAll<std::uint16_t>(source, SixteenBits(scalars));
+    numbers.sixteenBits.assign(converted.get(), converted.get() + count);
+  }
+  else
+  {
+    const auto converted = convertAll<float>(source, Floats());
+    numbers.floats.assign(converted.get(), converted.get() + count);
+  }
+  return numbers;
+}
+
+void ScalarTexture::widenRanges(const glm::ivec3& first, const BrickRanges& others)
+{
+  const glm::ivec3& count = this->Ranges.count;
+  std::size_t next = 0;
+  forEachIndex(first, first + others.count - 1, [&](const glm::ivec3& brick) {
+    const glm::vec2& other = others.ranges[next++];
+    glm::vec2& range =
+      this->Ranges
+        .ranges[(static_cast<std::size_t>(brick.z) * count.y + brick.y) * count.x + brick.x];
+    range = glm::vec2(std::min(range.x, other.x), std::max(range.y, other.y));
   });
-  return this->create(converted.get(), VTK_UNSIGNED_SHORT, shaderFromStored, dimensions, counters);
 }
 
 template <typename Stored>

@@ -31,6 +31,22 @@ struct ScalarSource
   bool labels;
 };
 
+/// Sixteen bits as the shader reads them.
+constexpr float ShaderFromSixteenBits = 1.0f / 65535.0f;
+
+/// Numbers as a texture of scalars stores them. One of the lists is empty.
+struct StoredNumbers
+{
+  std::vector<std::uint16_t> sixteenBits;
+  std::vector<float> floats;
+
+  bool empty() const { return this->sixteenBits.empty() && this->floats.empty(); }
+  std::int64_t bytes() const
+  {
+    return static_cast<std::int64_t>(2 * this->sixteenBits.size() + 4 * this->floats.size());
+  }
+};
+
 /// One number of each voxel: 32-bit floats, or 16-bit integers where these hold the values exactly.
 class ScalarTexture
 {
@@ -47,6 +63,13 @@ public:
 
   /// Counts textures that were given back, in all windows: what was refused before may fit now.
   static int givenBack();
+
+  /// The numbers of a part of a volume, `size` voxels a side, as a texture of such an array has
+  /// them.
+  static StoredNumbers storedNumbers(vtkDataArray* scalars, const glm::ivec3& size, int component);
+
+  /// Lets the ranges of bricks from `first` on hold others, too.
+  void widenRanges(const glm::ivec3& first, const BrickRanges& others);
 
   /// Bytes of one value on the GPU of the current context.
   static int bytesOf(vtkDataArray* scalars, int component);

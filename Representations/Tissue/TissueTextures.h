@@ -30,12 +30,16 @@ enum class GradientSource
   OnTheFly = 2,
 };
 
+/// A ray through all of a volume takes a limited number of samples, so that a picture ends.
+constexpr double MostSamplesOfRay = 8192.0;
+
 /// Which tissue is to be drawn, and how.
 struct TissueRequest
 {
   vtkVolumeProperty* property = nullptr;
   DrawnValues values; ///< Without scalars there is no tissue.
   double stepMm = 1.0;
+  bool usualStep = true; ///< Nobody chose it: it follows the voxels.
   Blend blend = Blend::Composite;
   GradientSource gradients = GradientSource::FullResolution;
   bool nearest = false; ///< Voxels are drawn as they are, not blended.
@@ -57,6 +61,13 @@ public:
 
   /// Whether updates since the last call changed which scalars can be seen, or where they are.
   bool takeVisibilityChange() { return std::exchange(this->VisibilityChanged, false); }
+
+  /// Lets the ranges of rest bricks hold others, too: of finer voxels that are drawn there.
+  void widenRanges(const glm::ivec3& first, const BrickRanges& others)
+  {
+    this->Scalars.widenRanges(first, others);
+    this->VisibilityChanged = true;
+  }
 
   /// Bricks of the rest volume, a side.
   const glm::ivec3& restBricks() const { return this->Scalars.ranges().count; }

@@ -6,6 +6,9 @@ void main()
   {
     gl_FragData[0] = vec4(0.0);
     gl_FragData[1] = NoHit;
+#ifdef WISHES
+    gl_FragData[2] = vec4(-1.0);
+#endif
     return;
   }
   Path path = pathOf(rayOfPixel(ndc));
@@ -39,4 +42,7 @@ void main()
   countSamples(taken, max((seen.picture.a > OpaqueEnough ? i : all) - taken, 0.0));
   gl_FragData[0] = seen.picture;
   gl_FragData[1] = seen.hit < 0.0 ? NoHit : hitAt(path.span.x + seen.hit * stepMm);
+#ifdef WISHES
+  gl_FragData[2] = vec4(wishes, -1.0, -1.0);
+#endif
 }

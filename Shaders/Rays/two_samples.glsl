@@ -32,6 +32,10 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
   bool visible = max(one.a, two.a) > 0.0;
   if (visible)
   {
+#ifdef WISHES
+    askForBrick(pair.oneRest);
+    askForBrick(pair.twoRest);
+#endif
     mat3 slopes = mat3(0.0);
     if (mayMove(path.moved, i)) // else there is nothing to turn
     {

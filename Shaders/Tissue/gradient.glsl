@@ -15,18 +15,11 @@ bvec3 areNumbers(vec3 scalars)
   return lessThanEqual(abs(scalars), vec3(LargestNumber));
 }
 
-// Gradient of the scalar per texture unit: central differences over one voxel to either side.
-// Beside values that are no numbers, differences to the known side only. Where the position itself
-// has none, the mean of the known sides takes its place.
-vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
+// Gradient of the scalar per texture unit, from scalars one voxel to either side. Beside values
+// that are no numbers, differences to the known side only. Where the position itself has none, the
+// mean of the known sides takes its place.
+vec3 differences(vec3 low, vec3 high, float scalar, vec3 voxel)
 {
-  vec3 alongX = vec3(voxel.x, 0.0, 0.0);
-  vec3 alongY = vec3(0.0, voxel.y, 0.0);
-  vec3 alongZ = vec3(0.0, 0.0, voxel.z);
-  vec3 low = vec3(textureLod(field, position - alongX, 0.0).r,
-    textureLod(field, position - alongY, 0.0).r, textureLod(field, position - alongZ, 0.0).r);
-  vec3 high = vec3(textureLod(field, position + alongX, 0.0).r,
-    textureLod(field, position + alongY, 0.0).r, textureLod(field, position + alongZ, 0.0).r);
   bvec3 knowsLow = areNumbers(low);
   bvec3 knowsHigh = areNumbers(high);
   if (all(knowsLow) && all(knowsHigh))
@@ -40,7 +33,18 @@ vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
     return vec3(0.0);
   }
   vec3 sums = mix(vec3(0.0), low, knowsLow) + mix(vec3(0.0), high, knowsHigh);
-  float scalar = textureLod(field, position, 0.0).r;
   vec3 here = vec3(isNumber(scalar) ? scalar : dot(sums, vec3(1.0)) / known);
   return (mix(here, high, knowsHigh) - mix(here, low, knowsLow)) / (max(sides, 1.0) * voxel);
+}
+
+vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
+{
+  vec3 alongX = vec3(voxel.x, 0.0, 0.0);
+  vec3 alongY = vec3(0.0, voxel.y, 0.0);
+  vec3 alongZ = vec3(0.0, 0.0, voxel.z);
+  vec3 low = vec3(textureLod(field, position - alongX, 0.0).r,
+    textureLod(field, position - alongY, 0.0).r, textureLod(field, position - alongZ, 0.0).r);
+  vec3 high = vec3(textureLod(field, position + alongX, 0.0).r,
+    textureLod(field, position + alongY, 0.0).r, textureLod(field, position + alongZ, 0.0).r);
+  return differences(low, high, textureLod(field, position, 0.0).r, voxel);
 }

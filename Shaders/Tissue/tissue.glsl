@@ -34,10 +34,12 @@ bool insideVolume(vec3 rest)
 
 uniform sampler3D scalars; // red: the scalar, as stored
 
+#ifndef STREAMED // else streamed.glsl follows
 float scalarAt(vec3 rest)
 {
   return textureLod(scalars, rest, 0.0).r;
 }
+#endif
 
 // Colour and opacity of one step. No opacity if the scalar is not a number.
 vec4 tissueOf(TissueTable table, float scalar)
@@ -75,7 +77,7 @@ vec3 gradientAt(vec3 rest)
 {
   return textureLod(normals, rest, 0.0).xyz - ZeroGradient;
 }
-#else
+#elif !defined(STREAMED)
 uniform vec3 voxel; // one voxel, texture coordinates
 
 vec3 gradientAt(vec3 rest)

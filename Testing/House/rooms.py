@@ -44,8 +44,9 @@ STANDS_ON = {
     "Representations/Field": ["Representations/Scene"],
     "Representations/Skipping": ["Representations/Scene"],
     "Representations/Tissue": ["Representations/Skipping"],
+    "Representations/Bricks": ["Representations/Tissue"],
     "Representations/Traces": ["Representations/Scene"],
-    "Representations/Picture": ["Representations/Field", "Representations/Tissue"],
+    "Representations/Picture": ["Representations/Bricks", "Representations/Field"],
     "Representations/Slices": ["Representations/Field", "Representations/Tissue"],
     "Representations/Window": [
         "Representations/Picture", "Representations/Slices", "Representations/Traces"],

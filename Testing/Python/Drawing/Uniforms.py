@@ -3,6 +3,7 @@
 # and textures. The renderer gives uniforms of a new program values that nobody would set, and
 # writes into a log which of them still have those values after the program has drawn.
 import os
+import shutil
 
 import numpy
 from brainshift_testing import (ball, load_plugin, look, picture, run_tests, scratch, show_volume,
@@ -13,8 +14,8 @@ os.environ["BRAINSHIFT_UNIFORM_LOG"] = LOG
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview.simple import (  # noqa: E402
-    ClearSelection, CompareVolumes, Delete, FreeFormDeformation, PolyPointSource, Resection,
-    SelectSurfaceCells, Show, Sphere)
+    ClearSelection, CompareVolumes, Delete, FreeFormDeformation, OMEZarrReader, PolyPointSource,
+    Resection, SelectSurfaceCells, Show, Sphere)
 from slices_testing import show_slices  # noqa: E402
 from steepness_testing import grid_of_table, table_of  # noqa: E402
 from stock_testing import prop_of  # noqa: E402
@@ -138,6 +139,21 @@ def test_segment():
         for light in LIGHTS:
             steep.draw(light, CountSamples=1)
         steep.close()
+
+
+def test_streamed():
+    path = scratch("streamed.ome.zarr")
+    shutil.rmtree(path, ignore_errors=True)
+    brainshift.pyramid(volume(ball(side=80, radius=25.0)), path)
+    for source in bent_and_not(OMEZarrReader(FileName=path, MemoryLimit=0.5)):
+        for opacities, named in ((FAINT, {}), (STEEP, {"CountSamples": 1})):
+            drawn = Drawn(source, opacities)
+            for light in (None, "On the fly"):
+                drawn.draw(light, **named)
+                state = brainshift.draw_detail(drawn.view, drawn.display)
+                assert state["gpuLevel"] == 0, state
+                drawn.draw(light, **named)
+            drawn.close()
 
 
 def test_reference():

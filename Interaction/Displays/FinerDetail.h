@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Draws views again while finer voxels of their volumes arrive, and shows in the status bar which
+/// level is drawn and what is still to come.
+#ifndef BrainShift_FinerDetail_h
+#define BrainShift_FinerDetail_h
+
+#include <QTimer>
+
+namespace brainshift
+{
+class FinerDetail : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit FinerDetail(QObject* parent);
+
+private:
+  void drawOn();
+
+  QTimer Next;
+};
+}
+
+#endif

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Bricks/BrickLoader.h"
+
+#include "Common/Guard.h"
+#include "Representations/Bricks/PageTable.h"
+#include "Representations/Skipping/RestPresence.h"
+
+#include "vtkDataArray.h"
+#include "vtkTextureObject.h" // for its smart pointer
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::int64_t MostBlockBytes = 64 << 20; // of voxels that neighbours may need, too
+constexpr std::size_t MostWaiting = 64;           // bricks that no picture has taken yet
+
+// First and last rest brick along an axis that each voxel of a slot can reach.
+struct Reach
+{
+  std::array<int, SlotSideVoxels> first;
+  std::array<int, SlotSideVoxels> last;
+};
+
+Reach reachAlong(int axis, int brick, const BrickOrder& order)
+{
+  const int bricks = (order.texels[axis] + RestBrickSide - 1) / RestBrickSide;
+  const double low = static_cast<double>(brick) * StreamedSide; // voxels of the finer level
+  const auto restBrickOf = [&](double fine, double margin) {
+    const double texture =
+      (fine - order.fine.voxelOfTextureZero[axis]) / order.fine.voxelFromTexture[axis];
+    const double voxel = texture * order.texels[axis] - 0.5 + margin;
+    return std::clamp(static_cast<int>(std::floor(voxel / RestBrickSide)), 0, bricks - 1);
+  };
+  Reach reach;
+  for (int i = 0; i < SlotSideVoxels; ++i)
+  {
+    const double middle = low + i - SlotBorder + 0.5;
+    reach.first[i] = restBrickOf(std::max(middle - 1.0, low), -BrickMargin);
+    reach.last[i] = restBrickOf(std::min(middle + 1.0, low + StreamedSide), BrickMargin);
+  }
+  return reach;
+}
+
+template <typename T>
+void widen(CoveredRanges& covered, const std::vector<T>& numbers, float scale,
+  const std::array<Reach, 3>& reach)
+{
+  const glm::ivec3& count = covered.found.count;
+  std::size_t at = 0;
+  for (int z = 0; z < SlotSideVoxels; ++z)
+  {
+    for (int y = 0; y < SlotSideVoxels; ++y)
+    {
+      for (int x = 0; x < SlotSideVoxels; ++x, ++at)
+      {
+        const float number = scale * static_cast<float>(numbers[at]);
+        const glm::ivec3 first(reach[0].first[x], reach[1].first[y], reach[2].first[z]);
+        const glm::ivec3 last(reach[0].last[x], reach[1].last[y], reach[2].last[z]);
+        forEachIndex(first - covered.first, last - covered.first, [&](const glm::ivec3& rest) {
+          glm::vec2& range = covered.found.ranges[(rest.z * count.y + rest.y) * count.x + rest.x];
+          range.x = number < range.x ? number : range.x; // false for NaN
+          range.y = number > range.y ? number : range.y;
+        });
+      }
+    }
+  }
+}
+}
+
+glm::ivec3 FineGrid::bricks() const
+{
+  return (this->voxels + StreamedSide - 1) / StreamedSide;
+}
+
+glm::ivec3 FineGrid::placeOf(int brick) const
+{
+  const glm::ivec3 side = this->bricks();
+  return { brick % side.x, brick / side.x % side.y, brick / (side.x * side.y) };
+}
+
+CoveredRanges coveredRanges(
+  const StoredNumbers& numbers, const glm::ivec3& brick, const BrickOrder& order)
+{
+  const std::array<Reach, 3> reach{ reachAlong(0, brick.x, order), reachAlong(1, brick.y, order),
+    reachAlong(2, brick.z, order) };
+  CoveredRanges covered;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    covered.first[axis] = reach[axis].first.front();
+    covered.found.count[axis] = reach[axis].last.back() - covered.first[axis] + 1;
+  }
+  constexpr float most = std::numeric_limits<float>::max();
+  const glm::ivec3& count = covered.found.count;
+  covered.found.ranges.assign(
+    static_cast<std::size_t>(count.x) * count.y * count.z, glm::vec2(most, -most));
+  if (numbers.floats.empty())
+  {
+    widen(covered, numbers.sixteenBits, ShaderFromSixteenBits, reach);
+  }
+  else
+  {
+    widen(covered, numbers.floats, 1.0f, reach);
+  }
+  return covered;
+}
+
+BrickLoader::BrickLoader(const LevelSource& source)
+  : Source(source)
+  , Thread([this] { this->run(); })
+{
+}
+
+BrickLoader::~BrickLoader()
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->Lock);
+    this->Stopped = true;
+  }
+  this->Wake.notify_all();
+  this->Thread.join();
+}
+
+std::vector<Grid> BrickLoader::grids()
+{
+  const std::lock_guard<std::mutex> lock(this->Lock);
+  return this->Grids;
+}
+
+std::string BrickLoader::problem()
+{
+  const std::lock_guard<std::mutex> lock(this->Lock);
+  return this->Problem;
+}
+
+void BrickLoader::order(const BrickOrder& order, const std::vector<int>& bricks)
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->Lock);
+    if (!(this->Order == order))
+    {
+      this->Read.clear();
+    }
+    this->Order = order;
+    this->Wanted = bricks;
+    this->Next = 0;
+  }
+  this->Wake.notify_all();
+}
+
+std::vector<ReadBrick> BrickLoader::take(std::size_t most)
+{
+  std::vector<ReadBrick> taken;
+  {
+    const std::lock_guard<std::mutex> lock(this->Lock);
+    while (!this->Read.empty() && taken.size() < most)
+    {
+      taken.push_back(std::move(this->Read.front()));
+      this->Read.pop_front();
+    }
+  }
+  this->Wake.notify_all();
+  return taken;
+}
+
+std::int64_t BrickLoader::waiting()
+{
+  const std::lock_guard<std::mutex> lock(this->Lock);
+  return !this->Opened
+    ? 1
+    : static_cast<std::int64_t>(this->Wanted.size() - this->Next + this->Read.size()) +
+      (this->Reading ? 1 : 0);
+}
+
+bool BrickLoader::isStopped()
+{
+  const std::lock_guard<std::mutex> lock(this->Lock);
+  return this->Stopped;
+}
+
+// Waits for the next brick that is wanted. False: stopped.
+bool BrickLoader::next(BrickOrder& order, int& brick)
+{
+  std::unique_lock<std::mutex> lock(this->Lock);
+  this->Reading = false;
+  this->Wake.wait(lock, [this] {
+    return this->Stopped || (this->Next < this->Wanted.size() && this->Read.size() < MostWaiting);
+  });
+  if (this->Stopped)
+  {
+    return false;
+  }
+  order = this->Order;
+  brick = this->Wanted[this->Next++];
+  this->Reading = true;
+  return true;
+}
+
+void BrickLoader::open()
+{
+  const std::string problem = sentenceThrownBy("The finer levels of the volume",
+    [this] { this->Levels = std::make_unique<FinerLevels>(this->Source); });
+  const std::lock_guard<std::mutex> lock(this->Lock);
+  this->Opened = true;
+  this->Problem = problem;
+  if (problem.empty())
+  {
+    this->Grids = this->Levels->grids();
+  }
+}
+
+void BrickLoader::run()
+{
+  this->open();
+  BrickOrder order;
+  int brick = 0;
+  while (this->next(order, brick))
+  {
+    ReadBrick read;
+    const std::string failure =
+      sentenceThrownBy("A brick of the volume", [&] { read = this->read(order, brick); });
+    if (!failure.empty())
+    {
+      read = ReadBrick();
+      read.remark = failure;
+    }
+    read.brick = brick;
+    const std::lock_guard<std::mutex> lock(this->Lock);
+    if (this->Order == order)
+    {
+      this->Read.push_back(std::move(read));
+    }
+  }
+}
+
+BrickLoader::Block BrickLoader::readBlock(
+  const BrickOrder& order, const glm::ivec3& place, int side)
+{
+  Block block;
+  block.first = place * side;
+  block.size = glm::min(block.first + side, order.fine.voxels) - block.first;
+  const glm::ivec3 last = block.first + block.size - 1;
+  const int extent[6] = { block.first.x, last.x, block.first.y, last.y, block.first.z, last.z };
+  const auto numbers = this->Levels->read(
+    order.fine.level, extent, [this](double) { return !this->isStopped(); }, block.remark);
+  if (!numbers)
+  {
+    throw brainshift::Problem("was not read: the volume is no longer drawn");
+  }
+  block.numbers = ScalarTexture::storedNumbers(numbers, block.size, order.component);
+  return block;
+}
+
+// Bricks side by side need the same voxels: each block is unpacked once.
+const BrickLoader::Block& BrickLoader::blockAt(
+  const BrickOrder& order, const glm::ivec3& place, int side)
+{
+  const BlockKey key{ static_cast<int>(order.fine.level), order.component, place.x, place.y,
+    place.z };
+  auto block = this->Blocks.find(key);
+  if (block == this->Blocks.end())
+  {
+    block = this->Blocks.emplace(key, this->readBlock(order, place, side)).first;
+    this->BlockBytes += block->second.numbers.bytes();
+  }
+  block->second.used = ++this->BlocksUsed;
+  return block->second;
+}
+
+void BrickLoader::forgetOldBlocks()
+{
+  while (this->BlockBytes > MostBlockBytes && this->Blocks.size() > 1)
+  {
+    const auto oldest = std::min_element(this->Blocks.begin(), this->Blocks.end(),
+      [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+    this->BlockBytes -= oldest->second.numbers.bytes();
+    this->Blocks.erase(oldest);
+  }
+}
+
+namespace
+{
+// The voxels of a slot along one axis that a block has: first, and one past the last.
+glm::ivec2 partOfSlot(int firstVoxel, int voxels, int firstOfBlock, int sizeOfBlock)
+{
+  const auto isBefore = [&](int i, int end) {
+    return std::clamp(firstVoxel + i, 0, voxels - 1) < end;
+  };
+  glm::ivec2 part(0);
+  while (part.x < SlotSideVoxels && isBefore(part.x, firstOfBlock))
+  {
+    part.x += 1;
+  }
+  part.y = part.x;
+  while (part.y < SlotSideVoxels && isBefore(part.y, firstOfBlock + sizeOfBlock))
+  {
+    part.y += 1;
+  }
+  return part;
+}
+
+struct Copied // the voxels that a slot has of a block
+{
+  glm::ivec3 firstVoxel; // of the slot
+  glm::ivec3 voxels;     // of the level
+  glm::ivec3 first;      // of the block
+  glm::ivec3 size;
+};
+
+// Beyond the volume its outermost voxels are repeated, as a texture does.
+template <typename T>
+void copyBlock(const Copied& copied, const std::vector<T>& from, std::vector<T>& to)
+{
+  std::array<glm::ivec2, 3> parts;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    parts[axis] = partOfSlot(
+      copied.firstVoxel[axis], copied.voxels[axis], copied.first[axis], copied.size[axis]);
+  }
+  const auto within = [&](int i, int axis) {
+    return std::clamp(copied.firstVoxel[axis] + i, 0, copied.voxels[axis] - 1) - copied.first[axis];
+  };
+  for (int z = parts[2].x; z < parts[2].y; ++z)
+  {
+    for (int y = parts[1].x; y < parts[1].y; ++y)
+    {
+      const T* row = &from[static_cast<std::size_t>(within(z, 2) * copied.size.y + within(y, 1)) *
+        copied.size.x];
+      T* out = &to[static_cast<std::size_t>(z * SlotSideVoxels + y) * SlotSideVoxels];
+      for (int x = parts[0].x; x < parts[0].y; ++x)
+      {
+        out[x] = row[within(x, 0)];
+      }
+    }
+  }
+}
+}
+
+ReadBrick BrickLoader::read(const BrickOrder& order, int brick)
+{
+  constexpr std::size_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
+  const int side = this->Levels->blockSide(order.fine.level);
+  const glm::ivec3 place = order.fine.placeOf(brick);
+  const glm::ivec3 low = place * StreamedSide - SlotBorder;
+  const glm::ivec3 last = order.fine.voxels - 1;
+  ReadBrick read;
+  forEachIndex(glm::max(low, glm::ivec3(0)) / side, glm::min(low + SlotSideVoxels - 1, last) / side,
+    [&](const glm::ivec3& at) {
+      const Block& block = this->blockAt(order, at, side);
+      const Copied copied{ low, order.fine.voxels, block.first, block.size };
+      read.numbers.floats.resize(block.numbers.floats.empty() ? 0 : SlotVoxels);
+      read.numbers.sixteenBits.resize(block.numbers.sixteenBits.empty() ? 0 : SlotVoxels);
+      if (block.numbers.floats.empty())
+      {
+        copyBlock(copied, block.numbers.sixteenBits, read.numbers.sixteenBits);
+      }
+      else
+      {
+        copyBlock(copied, block.numbers.floats, read.numbers.floats);
+      }
+      read.remark = read.remark.empty() ? block.remark : read.remark;
+    });
+  this->forgetOldBlocks();
+  read.ranges = coveredRanges(read.numbers, place, order);
+  return read;
+}
+}

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Bricks/StreamedBricks.h"
+
+#include "Representations/Gpu/OpenGL.h"
+#include "Representations/Scene/Frustum.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkTextureObject.h"
+#include "vtkVolumeProperty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double BytesInMiB = 1048576.0;
+constexpr double UsualLimitMiB = 1024.0; // where the user sets none
+constexpr int LeastSlots = 8;
+constexpr std::size_t MostUploads = 256;  // for one picture, some 10 MB
+constexpr double MostBricks = 16777216.0; // rays write their numbers as floats
+constexpr int QuietPictures = 2; // rays ask for one brick each, so two pictures are compared
+
+// mm, world. How wide a pixel is where the volume's box is nearest to the eye.
+double pixelAt(const DrawnValues& values, const BrickView& view)
+{
+  const glm::dmat4& clipFromWorld = view.frame.clipFromWorld;
+  const double nearW = frustumOf(clipFromWorld * view.frame.worldFromTexture).near.w;
+  const ValueLayout& layout = values.layout;
+  double w = 1e300;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec4 world =
+      view.frame.worldFromTexture * glm::dvec4(glm::mix(layout.low, layout.high, side), 1.0);
+    w = std::min(w, (clipFromWorld * world).w);
+  }
+  const glm::dvec3 up(clipFromWorld[0][1], clipFromWorld[1][1], clipFromWorld[2][1]);
+  return 2.0 * std::max(w, nearW) / (glm::length(up) * std::max(view.pixels.y, 1));
+}
+
+// The voxels of a grid in the volume's texture. None if their axes are not the texture's, or if
+// there are too many.
+std::optional<FineGrid> placed(const DrawnValues& values, const Grid& grid, std::size_t level)
+{
+  const ValueLayout& layout = values.layout;
+  const auto voxelOf = [&](const glm::dvec3& texture) {
+    return grid.gridFromWorld(values.grid.worldFromGrid(
+             (texture - layout.textureOfGridZero) / layout.textureFromGrid)) +
+      0.5;
+  };
+  FineGrid fine;
+  fine.level = level;
+  fine.voxels = grid.dimensions;
+  const glm::dvec3 bricks(fine.bricks());
+  if (bricks.x * bricks.y * bricks.z > MostBricks)
+  {
+    return std::nullopt;
+  }
+  fine.voxelOfTextureZero = voxelOf(glm::dvec3(0.0));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::dvec3 unit(0.0);
+    unit[axis] = 1.0;
+    const glm::dvec3 along = voxelOf(unit) - fine.voxelOfTextureZero;
+    fine.voxelFromTexture[axis] = along[axis];
+    const glm::dvec3 across = glm::abs(along - along[axis] * unit);
+    if (!(along[axis] > 0.0) || std::max({ across.x, across.y, across.z }) > 0.01)
+    {
+      return std::nullopt;
+    }
+  }
+  return fine;
+}
+}
+
+std::optional<FineGrid> levelFor(
+  const DrawnValues& values, const std::vector<Grid>& finer, const BrickView& view)
+{
+  const double pixelMm = pixelAt(values, view);
+  const auto widest = [&](const glm::dvec3& voxels) {
+    double mm = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      mm = std::max(mm, glm::length(glm::dvec3(view.frame.worldFromTexture[axis])) / voxels[axis]);
+    }
+    return mm;
+  };
+  double held = widest(glm::dvec3(values.layout.dimensions));
+  std::optional<FineGrid> found;
+  for (std::size_t level = finer.size(); level-- > 0 && held > pixelMm;)
+  {
+    const std::optional<FineGrid> fine = placed(values, finer[level], level);
+    if (fine && widest(fine->voxelFromTexture) < 0.99 * held)
+    {
+      found = fine;
+      held = widest(fine->voxelFromTexture);
+    }
+  }
+  return found;
+}
+
+// Other choices are drawn from the volume's own level alone.
+bool StreamedBricks::accepts(const TissueRequest& tissue) const
+{
+  const DrawnComponents drawn = drawnComponents(tissue.property, tissue.values.scalars);
+  return tissue.blend == Blend::Composite && tissue.opacity == Opacity::Scalar &&
+    !tissue.compared && !tissue.labels && !tissue.nearest && !tissue.segment.segmentation.labels &&
+    drawn.coloring == Coloring::Mapped && drawn.scalar >= 0 &&
+    !CategoryScalars::areWanted(tissue.property);
+}
+
+void StreamedBricks::chooseLevel(const BrickView& view, const TissueRequest& tissue)
+{
+  const std::vector<Grid> grids = this->Loader ? this->Loader->grids() : std::vector<Grid>();
+  this->Accepted = this->Loader && this->accepts(tissue);
+  this->KnewGrids = !grids.empty();
+  const std::optional<FineGrid> level =
+    this->Accepted ? levelFor(tissue.values, grids, view) : std::nullopt;
+  const BrickOrder order{ level.value_or(FineGrid()), tissue.values.layout.dimensions,
+    drawnComponents(tissue.property, tissue.values.scalars).scalar };
+  const bool isSame =
+    level == this->Level && order == this->Order && view.limitMiB == this->LimitMiB;
+  if (!isSame)
+  {
+    this->Table.reset(glm::ivec3(0), glm::ivec3(0));
+    this->Pages = nullptr;
+    this->Atlas = nullptr;
+    this->IsRefused = false;
+    this->LimitMiB = view.limitMiB;
+    this->Level = level;
+    this->Order = order;
+    this->forgetBricks();
+  }
+}
+
+void StreamedBricks::forgetBricks()
+{
+  this->Failed.clear();
+  this->Wanted.clear();
+  this->ViewNumbers.clear();
+  this->Changes += 1;
+}
+
+void StreamedBricks::plan(GpuTask& gpu, const BrickView& view, TissueRequest& tissue)
+{
+  const std::optional<LevelSource> source = finerLevelsOf(tissue.values.scalars);
+  if (!(source == this->Source))
+  {
+    this->release(gpu.window);
+    this->Source = source;
+    this->Loader = source ? std::make_unique<BrickLoader>(*source) : nullptr;
+  }
+  if (this->Loader && !this->Loader->problem().empty())
+  {
+    gpu.remarks.push_back(this->Loader->problem());
+  }
+  this->chooseLevel(view, tissue);
+  this->Bytes = ScalarTexture::bytesOf(tissue.values.scalars, this->Order.component);
+  if (!this->Level || (!this->Atlas && !this->allocate(gpu)))
+  {
+    return;
+  }
+  this->noteView(gpu, view, tissue);
+  const ValueLayout& layout = tissue.values.layout;
+  const glm::dvec3 finer =
+    this->Level->voxelFromTexture / glm::dvec3(layout.dimensions * layout.perTexel);
+  const glm::dvec3 sides = tissue.values.grid.spacing * glm::dvec3(tissue.values.grid.dimensions);
+  if (tissue.usualStep)
+  {
+    tissue.stepMm = std::max(tissue.stepMm / std::max({ finer.x, finer.y, finer.z }),
+      glm::length(sides) / MostSamplesOfRay);
+  }
+  tissue.gradients = GradientSource::OnTheFly;
+}
+
+namespace
+{
+constexpr std::int64_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
+
+// So many slots or some less, in a block as nearly a cube as is simple.
+glm::ivec3 slotsASide(std::int64_t slots, int most)
+{
+  const auto within = [most](double side) { return std::clamp(static_cast<int>(side), 1, most); };
+  glm::ivec3 side(1);
+  side.x = within(std::cbrt(static_cast<double>(slots)));
+  side.y = within(std::sqrt(static_cast<double>(slots) / side.x));
+  side.z = within(static_cast<double>(slots) / (side.x * side.y));
+  return side;
+}
+
+vtkSmartPointer<vtkTextureObject> makeTexture(
+  vtkOpenGLRenderWindow* window, unsigned int format, int filter)
+{
+  auto texture = vtkSmartPointer<vtkTextureObject>::New();
+  texture->SetContext(window);
+  texture->SetInternalFormat(format);
+  texture->SetMinificationFilter(filter);
+  texture->SetMagnificationFilter(filter);
+  texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  texture->SetWrapR(vtkTextureObject::ClampToEdge);
+  return texture;
+}
+
+void replaceTexels(vtkTextureObject* texture, const IndexBox& box, unsigned int format,
+  unsigned int type, const void* values)
+{
+  const glm::ivec3 size = box.size();
+  texture->Activate();
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(GL_TEXTURE_3D, 0, box.first.x, box.first.y, box.first.z, size.x, size.y, size.z,
+    format, type, values);
+  texture->Deactivate();
+}
+}
+
+// Half of what is asked for, and so on, where the GPU refuses.
+bool StreamedBricks::allocate(GpuTask& gpu)
+{
+  if (this->IsRefused)
+  {
+    return false;
+  }
+  const bool isSixteenBits = this->Bytes == 2;
+  const double freeMiB = freeMemoryMiB(gpu.window);
+  const double usualMiB =
+    freeMiB == UnknownMemory ? UsualLimitMiB : std::min(UsualLimitMiB, 0.5 * freeMiB);
+  const double allowed = this->LimitMiB > 0.0 ? this->LimitMiB : usualMiB;
+  const glm::ivec3 bricks = this->Level->bricks();
+  const std::int64_t all = static_cast<std::int64_t>(bricks.x) * bricks.y * bricks.z;
+  const int longest = vtkTextureObject::GetMaximumTextureSize3D(gpu.window) / SlotSideVoxels;
+  std::int64_t slots = std::min<std::int64_t>(
+    all, static_cast<std::int64_t>(allowed * BytesInMiB / (this->Bytes * SlotVoxels)));
+  for (; slots >= std::min<std::int64_t>(LeastSlots, all); slots /= 2)
+  {
+    const glm::ivec3 side =
+      slotsASide(slots, std::min(longest, static_cast<int>(PageTable::MostSlotsASide)));
+    const glm::ivec3 texels = side * SlotSideVoxels;
+    this->Atlas =
+      makeTexture(gpu.window, isSixteenBits ? GL_R16 : GL_R32F, vtkTextureObject::Linear);
+    this->Pages = makeTexture(gpu.window, GL_RGBA8, vtkTextureObject::Nearest);
+    this->Table.reset(bricks, side);
+    std::vector<std::uint8_t> pages = this->Table.texels();
+    if (textureProblem(gpu.window, texels).empty() && textureProblem(gpu.window, bricks).empty() &&
+      this->Atlas->Create3DFromRaw(
+        texels.x, texels.y, texels.z, 1, isSixteenBits ? VTK_UNSIGNED_SHORT : VTK_FLOAT, nullptr) &&
+      this->Pages->Create3DFromRaw(
+        bricks.x, bricks.y, bricks.z, 4, VTK_UNSIGNED_CHAR, pages.data()) &&
+      !takeOutOfMemory())
+    {
+      return true;
+    }
+    takeOutOfMemory();
+    this->Atlas = nullptr;
+    this->Pages = nullptr;
+  }
+  this->IsRefused = true;
+  this->Table.reset(glm::ivec3(0), glm::ivec3(0));
+  gpu.remarks.push_back("Finer voxels are not drawn: the graphics card has no memory for bricks of "
+                        "them; " +
+    std::to_string(static_cast<int>(allowed)) + " MiB are allowed");
+  return false;
+}
+
+// A brick that this view has used stays; where the view changes, others may take its place.
+void StreamedBricks::noteView(
+  const GpuTask& gpu, const BrickView& view, const TissueRequest& tissue)
+{
+  std::vector<double> now{ static_cast<double>(view.pixels.x), static_cast<double>(view.pixels.y),
+    static_cast<double>(gpu.counters.latticeUploads),
+    static_cast<double>(tissue.property->GetMTime()) };
+  for (const glm::dmat4& matrix : { view.frame.clipFromWorld, view.frame.worldFromTexture })
+  {
+    now.insert(now.end(), &matrix[0][0], &matrix[0][0] + 16);
+  }
+  if (now != this->ViewNumbers)
+  {
+    this->ViewNumbers = std::move(now);
+    this->View += 1;
+    this->Quiet = 0;
+    this->Full = false;
+    this->Wanted.clear();
+  }
+}
+
+void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures)
+{
+  if (read.numbers.empty())
+  {
+    this->Failed.insert(read.brick);
+    return;
+  }
+  const int slot = this->Table.slotOf(read.brick) == PageTable::None
+    ? this->Table.take(read.brick, this->View)
+    : PageTable::None;
+  if (slot == PageTable::None)
+  {
+    return; // it is there already, or there is no room any more
+  }
+  const glm::ivec3 first = this->Table.placeOf(slot) * SlotSideVoxels;
+  const IndexBox box{ first, first + SlotSideVoxels - 1 };
+  const bool floats = !read.numbers.floats.empty();
+  replaceTexels(this->Atlas, box, GL_RED, floats ? GL_FLOAT : GL_UNSIGNED_SHORT,
+    floats ? static_cast<const void*>(read.numbers.floats.data())
+           : read.numbers.sixteenBits.data());
+  textures.widenRanges(read.ranges.first, read.ranges.found);
+}
+
+void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks& bricks)
+{
+  bricks = SceneBricks();
+  if (!this->Level || !this->Atlas)
+  {
+    return;
+  }
+  if (this->RangesOf != textures.scalars()) // its ranges are as they were read
+  {
+    this->RangesOf = textures.scalars();
+    this->Table.reset(glm::ivec3(this->Table.bricks()), glm::ivec3(this->Table.slots()));
+    this->PagesAreOld = true;
+    this->forgetBricks();
+  }
+  const std::int64_t before = this->Changes;
+  for (const ReadBrick& read : this->Loader->take(gpu.moving ? MostUploads / 8 : MostUploads))
+  {
+    this->place(read, textures);
+    this->Changes += 1;
+    if (!read.remark.empty() && !std::exchange(this->SaidDamage, true))
+    {
+      gpu.remarks.push_back(read.remark);
+    }
+  }
+  if (before != this->Changes || this->PagesAreOld)
+  {
+    const glm::ivec3 last = this->Table.bricks() - 1;
+    replaceTexels(
+      this->Pages, { glm::ivec3(0), last }, GL_RGBA, GL_UNSIGNED_BYTE, this->Table.texels().data());
+    this->PagesAreOld = false;
+  }
+  bricks.pages = this->Pages;
+  bricks.atlas = this->Atlas;
+  bricks.voxels = glm::dvec3(this->Level->voxels);
+  bricks.voxelFromTexture = this->Level->voxelFromTexture;
+  bricks.voxelOfTextureZero = this->Level->voxelOfTextureZero;
+  bricks.seed = { 7 * this->Pictures, 3 * this->Pictures };
+  bricks.changes = this->Changes;
+}
+
+void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
+{
+  if (!this->Level || !this->Atlas || wishes.empty())
+  {
+    return;
+  }
+  this->Pictures += 1;
+  std::map<int, int> pixels; // of each brick that is missing
+  for (const glm::vec2& wish : wishes)
+  {
+    if (wish.x >= 0.0f)
+    {
+      pixels[static_cast<int>(wish.x)] += 1;
+    }
+    if (wish.y >= 0.0f)
+    {
+      this->Table.use(static_cast<int>(wish.y), this->View);
+    }
+  }
+  for (const int brick : this->Wanted) // of the same view, and not there yet
+  {
+    pixels.emplace(brick, 0);
+  }
+  std::vector<std::pair<int, int>> sorted; // most pixels first
+  for (const auto& [brick, count] : pixels)
+  {
+    if (this->Failed.count(brick) == 0 && this->Table.slotOf(brick) == PageTable::None)
+    {
+      sorted.emplace_back(-count, brick);
+    }
+  }
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t room = this->Table.room(this->View);
+  this->Full = sorted.size() > room;
+  sorted.resize(std::min(sorted.size(), room));
+  this->Wanted.clear();
+  for (const auto& [count, brick] : sorted)
+  {
+    this->Wanted.push_back(brick);
+  }
+  this->Loader->order(this->Order, this->Wanted);
+  this->Quiet = this->Wanted.empty() ? this->Quiet + 1 : 0;
+  this->Changes += this->Quiet == 1 ? 1 : 0; // a picture with other wishes
+}
+
+std::int64_t StreamedBricks::wanted() const
+{
+  if (!this->Loader || !this->Accepted || !this->Loader->problem().empty())
+  {
+    return 0;
+  }
+  if (!this->KnewGrids)
+  {
+    return 1; // a picture that knows them is to come
+  }
+  const std::int64_t waiting = this->Level && this->Atlas ? this->Loader->waiting() : 0;
+  const bool isSure = !this->Level || !this->Atlas || this->Quiet >= QuietPictures;
+  return waiting > 0 ? waiting : isSure ? 0 : 1;
+}
+
+void StreamedBricks::count(Counters& counters) const
+{
+  if (this->Level && this->Atlas)
+  {
+    counters.gpuLevel = static_cast<std::int64_t>(this->Level->level);
+    counters.gpuBricks += this->Table.count();
+    counters.gpuBricksLackRoom += this->Full ? 1 : 0;
+  }
+  counters.gpuBricksWanted += this->wanted();
+}
+
+void StreamedBricks::release(vtkWindow* window)
+{
+  for (vtkTextureObject* texture : { this->Atlas.Get(), this->Pages.Get() })
+  {
+    if (texture)
+    {
+      texture->ReleaseGraphicsResources(window);
+    }
+  }
+  *this = StreamedBricks();
+}
+}

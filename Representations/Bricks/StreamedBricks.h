@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Bricks of a finer level of the volume that is drawn, on the GPU of one window: those that rays
+/// asked for, as far as memory goes.
+#ifndef BrainShift_StreamedBricks_h
+#define BrainShift_StreamedBricks_h
+
+#include "Representations/Bricks/BrickLoader.h"
+#include "Representations/Bricks/PageTable.h"
+#include "Representations/Scene/SceneFrame.h"
+#include "Representations/Tissue/TissueTextures.h"
+
+#include <set>
+
+namespace brainshift
+{
+/// The view that bricks are chosen for.
+struct BrickView
+{
+  SceneFrame frame;
+  glm::ivec2 pixels{ 0 }; ///< Of the picture, a side.
+  double limitMiB = 0.0;  ///< For the bricks; 0: as much as is usual.
+};
+
+/// The level that suits a view: the coarsest whose voxels are no longer than a pixel is wide where
+/// the volume's box is nearest to the eye, or else the finest. None: the volume's own is fine
+/// enough, or no finer one has its axes.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::optional<FineGrid> levelFor(
+  const DrawnValues& values, const std::vector<Grid>& finer, const BrickView& view);
+
+/// Calls for one picture: plan, upload, and finish once it is cast.
+class StreamedBricks
+{
+public:
+  /// Chooses the level. If one is streamed, `tissue` is changed to be sampled as finely.
+  void plan(GpuTask& gpu, const BrickView& view, TissueRequest& tissue);
+
+  /// Sends bricks that have arrived to the GPU and fills the scene's bricks. `textures` are up to
+  /// date; the bricks' ranges widen theirs.
+  void upload(GpuTask& gpu, TissueTextures& textures, SceneBricks& bricks);
+
+  /// Orders what the rays of a picture asked for: for each pixel two bricks, one that is not there
+  /// and one that is, or a number below 0. Empty: nothing was cast.
+  void finish(const std::vector<glm::vec2>& wishes);
+
+  /// Adds the present state to the counters. The GPU is not asked.
+  void count(Counters& counters) const;
+
+  /// All textures; some may be null.
+  std::vector<vtkTextureObject*> textures() const { return { this->Atlas, this->Pages }; }
+
+  void release(vtkWindow* window);
+
+private:
+  bool accepts(const TissueRequest& tissue) const;
+  void chooseLevel(const BrickView& view, const TissueRequest& tissue);
+  bool allocate(GpuTask& gpu);
+  void forgetBricks();
+  void noteView(const GpuTask& gpu, const BrickView& view, const TissueRequest& tissue);
+  void place(const ReadBrick& read, TissueTextures& textures);
+  std::int64_t wanted() const;
+
+  std::optional<LevelSource> Source;
+  std::unique_ptr<BrickLoader> Loader; // null: there are no finer levels
+  bool Accepted = false;               // by what is drawn
+  bool KnewGrids = false;              // at the last plan
+  std::optional<FineGrid> Level;       // that is streamed now
+  BrickOrder Order;
+  PageTable Table;
+  vtkSmartPointer<vtkTextureObject> Atlas;
+  vtkSmartPointer<vtkTextureObject> Pages;
+  int Bytes = 4; // of a voxel
+  bool PagesAreOld = false;
+  double LimitMiB = 0.0;                     // see BrickView
+  bool IsRefused = false;                    // the memory for it
+  vtkWeakPointer<vtkTextureObject> RangesOf; // whose ranges were widened
+  std::set<int> Failed;                      // bricks that cannot be read
+  std::vector<int> Wanted;                   // as ordered last
+  bool SaidDamage = false;                   // of this source
+  std::vector<double> ViewNumbers;
+  std::int64_t View = 0;    // counts views
+  std::int64_t Changes = 0; // counts changes of what is there
+  int Pictures = 0;
+  int Quiet = 0;     // pictures in a row without a wish
+  bool Full = false; // this view asks for more than there is room for
+};
+}
+
+#endif

@@ -1,0 +1,96 @@
+// Voxels of a finer level of the volume, in bricks that come while rays ask for them. Where a brick
+// is not there, the volume's own voxels are drawn.
+
+uniform sampler3D pages; // for each brick: place of its slot, of 255; alpha 1 if it is there
+uniform sampler3D atlas; // slots of bricks, each with a border: red: the scalar, as stored
+uniform vec3 fineFromTexture; // scale and shift: voxels of the finer level
+uniform vec3 fineOfTextureZero;
+uniform vec3 fineVoxels; // a side
+uniform vec3 pagesTexel; // one brick, texture coordinates of `pages`
+uniform vec3 atlasTexel; // one voxel, texture coordinates of `atlas`
+uniform vec3 voxel;      // one of the volume's own, texture coordinates
+
+const float SlotSideVoxels = BRICK_SIDE + 2.0 * BRICK_BORDER;
+
+vec3 fineAt(vec3 rest)
+{
+  return clamp(rest * fineFromTexture + fineOfTextureZero, vec3(0.0), fineVoxels);
+}
+
+// The brick of a voxel. The last one has the volume's outer face, too.
+vec3 brickOf(vec3 fine)
+{
+  return floor(min(fine, fineVoxels - 0.5) / BRICK_SIDE);
+}
+
+vec4 pageOf(vec3 brick)
+{
+  return textureLod(pages, (brick + 0.5) * pagesTexel, 0.0);
+}
+
+float scalarAt(vec3 rest)
+{
+  vec3 fine = fineAt(rest);
+  vec3 brick = brickOf(fine);
+  vec4 page = pageOf(brick);
+  if (page.a < 0.5)
+  {
+    return textureLod(scalars, rest, 0.0).r;
+  }
+  vec3 slot = floor(page.xyz * 255.0 + 0.5) * SlotSideVoxels;
+  return textureLod(atlas, (slot + fine - BRICK_SIDE * brick + BRICK_BORDER) * atlasTexel, 0.0).r;
+}
+
+// Differences over one voxel to either side: of the level that is drawn there.
+vec3 gradientAt(vec3 rest)
+{
+  bool isFine = pageOf(brickOf(fineAt(rest))).a >= 0.5;
+  vec3 away = isFine ? 1.0 / fineFromTexture : voxel;
+  vec3 alongX = vec3(away.x, 0.0, 0.0);
+  vec3 alongY = vec3(0.0, away.y, 0.0);
+  vec3 alongZ = vec3(0.0, 0.0, away.z);
+  vec3 low = vec3(scalarAt(rest - alongX), scalarAt(rest - alongY), scalarAt(rest - alongZ));
+  vec3 high = vec3(scalarAt(rest + alongX), scalarAt(rest + alongY), scalarAt(rest + alongZ));
+  return differences(low, high, scalarAt(rest), away);
+}
+
+#ifdef WISHES
+// Each pixel names one brick that its ray saw and that is not there, and one that is: not always
+// the first, so that pixels side by side name others. A place up to a voxel beside the sample is
+// looked at, because the finer voxels of the brick beside may be visible, too.
+uniform ivec2 wishSeed; // another one for each picture
+uniform vec3 wishReach; // one of the volume's own voxels, voxels of the finer level
+
+const int WishRanks = 16;
+
+ivec2 wishPixel = ivec2(gl_FragCoord.xy);
+int wishCorner = (3 * wishPixel.x + 8 * wishPixel.y + wishSeed.y) & (WishRanks - 1);
+vec3 wishShift = wishCorner >= 8 ? vec3(0.0)
+                                 : wishReach *
+    (2.0 * vec3(float(wishCorner & 1), float(wishCorner >> 1 & 1), float(wishCorner >> 2)) - 1.0);
+ivec2 wishesLeft = ivec2((5 * wishPixel.x + 11 * wishPixel.y + wishSeed.x) & (WishRanks - 1));
+vec2 wishes = vec2(-1.0); // numbers of bricks: not there, there
+vec3 lastAsked = vec3(-1.0);
+
+void askForBrick(vec3 rest)
+{
+  vec3 brick = brickOf(clamp(fineAt(rest) + wishShift, vec3(0.0), fineVoxels));
+  if (brick == lastAsked)
+  {
+    return;
+  }
+  lastAsked = brick;
+  vec3 bricks = ceil(fineVoxels / BRICK_SIDE);
+  float number = (brick.z * bricks.y + brick.y) * bricks.x + brick.x;
+  if (pageOf(brick).a < 0.5)
+  {
+    wishes.x = wishesLeft.x >= 0 ? number : wishes.x;
+    wishesLeft.x -= 1;
+  }
+  else
+  {
+    wishes.y = wishesLeft.y >= 0 ? number : wishes.y;
+    wishesLeft.y -= 1;
+  }
+}
+#endif

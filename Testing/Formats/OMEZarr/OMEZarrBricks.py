@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that a store that is read coarsely is drawn as finely as it is stored where rays meet it:
+# as the finest level is, read and drawn directly, also bent, clipped to a small memory, with a
+# chunk that is damaged, while it is bent again and in two views. Skipping changes no bit of it.
+import os
+
+import numpy
+import zarr_files
+from brainshift_testing import (assert_says, load_plugin, messages, object_pixels, picture,
+                                run_tests, show_volume, use_headlight, view_along, volume)
+from zarr_files import describe, fresh, level, write_array
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview import simple  # noqa: E402
+from stock_testing import prop_of  # noqa: E402
+from vtkmodules.vtkCommonDataModel import vtkPlane  # noqa: E402
+
+SHAPE = (72, 112, 96)  # z, y, x: the last bricks are cut
+MIDDLE = (48.0, 56.0, 36.0)
+COLORS = [0, 0.1, 0.1, 0.5, 500, 1, 0.6, 0.2, 1000, 1, 1, 0.8]
+TRANSLUCENT = [0, 0, 0.5, 0, 300, 0, 0.5, 0, 700, 0.1, 0.5, 0, 1000, 0.4, 0.5, 0]
+OPAQUE = [0, 0, 0.5, 0, 440, 0, 0.5, 0, 460, 1, 0.5, 0, 1000, 1, 0.5, 0]
+STEP = 0.4  # mm
+
+
+def voxels():
+    """A ball with waves of 5 voxels on it: the coarser levels blur them."""
+    z, y, x = numpy.mgrid[0:SHAPE[0], 0:SHAPE[1], 0:SHAPE[2]].astype(float)
+    away = numpy.sqrt((x - 48) ** 2 + (y - 56) ** 2 + 1.6 * (z - 36) ** 2)
+    waves = 1.5 * (numpy.sin(x * 1.25) + numpy.sin(y * 1.25) + numpy.sin(z * 1.25))
+    return (1000 * numpy.clip((34 + waves - away) / 6 + 0.5, 0, 1)).astype(numpy.uint16)
+
+
+def halved(values):
+    z, y, x = (side // 2 for side in values.shape)
+    return values.reshape(z, 2, y, 2, x, 2).mean((1, 3, 5)).round().astype(values.dtype)
+
+
+def store(name="bricks.zarr", kind=numpy.uint16, chunks=(20, 24, 28)):
+    """Three levels. Chunks and bricks have no faces in common."""
+    path = fresh(name)
+    values = voxels().astype(kind)
+    datasets = []
+    for i in range(3):
+        write_array(path, str(i), values, 2, chunks, codecs=zarr_files.OF_VERSION_2["zstd"])
+        datasets.append(level(str(i), [2 ** i] * 3, [(2 ** i - 1) / 2] * 3))
+        values = halved(values)
+    return describe(path, datasets, version=2)
+
+
+def reader(path, **properties):
+    return simple.OMEZarrReader(FileName=path, **properties)
+
+
+def coarse(path):
+    source = reader(path, MemoryLimit=0.3)
+    source.UpdatePipeline()
+    assert source.GetClientSideObject().GetOutput().GetDimensions() == (48, 56, 36)
+    return source
+
+
+def blurred():
+    """The level beside the finest, in no file."""
+    return volume(halved(voxels()), (0.5,) * 3, (2.0,) * 3)
+
+
+class Shown:
+    """A volume in a view of its own, cut by a plane so that samples have the same places."""
+
+    def __init__(self, source, opacities=TRANSLUCENT, shade=True, size=200, **named):
+        self.view = view_along((-0.2, 0.3, -1), MIDDLE, 190.0, size=size)
+        use_headlight(self.view)
+        self.display = show_volume(source, self.view, "Deformed Volume", COLORS, opacities,
+                                   shade=shade)
+        self.display.VolumeNormalTexture = "On the fly"
+        self.display.SampleDistance = STEP
+        self.display.AmbientOcclusion = 0.0
+        for name, value in named.items():
+            setattr(self.display, name, value)
+        with messages():  # unknown sides
+            picture(self.view)
+        plane = vtkPlane()
+        plane.SetOrigin(48.0, 56.0, 66.0)
+        plane.SetNormal(-0.05, 0.1, -1.0)
+        prop_of(self.view).GetMapper().AddClippingPlane(plane)
+
+    def detail(self, **named):
+        state = brainshift.draw_detail(self.view, self.display, **named)
+        return picture(self.view), state
+
+    def close(self):
+        simple.Delete(self.view)
+
+
+def differences(left, right):
+    off = numpy.abs(left - right).max(axis=2)
+    return off.max(), (off > 1.5 / 255).sum(), object_pixels(left, right).sum()
+
+
+def compare(what, left, right, other, most_pixels):
+    """The first two pictures are alike, the third differs."""
+    largest, pixels, all_pixels = differences(left, right)
+    _, others, _ = differences(other, right)
+    print(f"  {what}: {pixels} of {all_pixels} pixels differ by more than 1/255, the largest by "
+          f"{largest:.3f}; of the coarser level {others}", flush=True)
+    assert all_pixels > 3000, all_pixels
+    assert pixels <= most_pixels, (what, pixels)
+    assert others > 20 * (pixels + 5), (what, others)
+    return largest
+
+
+def test_as_drawn_directly():
+    path = store()
+    for opacities in (TRANSLUCENT, OPAQUE):
+        for shade in (False, True):
+            direct = Shown(reader(path, Level=0), opacities, shade)
+            blurry = Shown(blurred(), opacities, shade)
+            streamed = Shown(coarse(path), opacities, shade)
+            image, state = streamed.detail()
+            assert state["gpuLevel"] == 0 and state["gpuBricks"] > 8, state
+            assert state["gpuBricksLackRoom"] == 0, state
+            name = "opaque" if opacities is OPAQUE else "translucent"
+            compare(f"{name}, {'lit' if shade else 'not lit'}", image, picture(direct.view),
+                    picture(blurry.view), 0)
+            for one in (direct, blurry, streamed):
+                one.close()
+
+
+def lattice():
+    """Displacements on a grid of its own, so that the bend does not depend on the level."""
+    z, y, x = numpy.mgrid[0:7, 0:7, 0:7] / 6.0 - 0.5
+    away = numpy.exp(-6 * (x * x + y * y + z * z))
+    displacements = numpy.stack((9 * away, -7 * away * y, 6 * away * (1 + x)), -1)
+    return volume(displacements.astype(numpy.float32), (-8.0, -8.0, -8.0), (19.0, 21.0, 15.0))
+
+
+def bent(source):
+    return simple.FreeFormDeformation(Input=source, Lattice=lattice(), LatticeDimensions=[19] * 3)
+
+
+def test_bent():
+    path = store()
+    direct = Shown(bent(reader(path, Level=0)))
+    blurry = Shown(bent(blurred()))
+    rest = Shown(reader(path, Level=0))
+    streamed = Shown(bent(coarse(path)))
+    image, _ = streamed.detail()
+    # Each level resamples the lattice on its own box, which is a little smaller if it is coarser.
+    compare("bent", image, picture(direct.view), picture(blurry.view), 330)
+    assert differences(image, picture(rest.view))[1] > 1000, "it must be bent"
+    for one in (direct, blurry, rest, streamed):
+        one.close()
+
+
+def test_skipping_changes_nothing():
+    path = store()
+    for source in (coarse(path), bent(coarse(path))):
+        for opacities in (TRANSLUCENT, OPAQUE):
+            shown = Shown(source, opacities, size=120)
+            image, _ = shown.detail()
+            shown.display.EmptySpaceSkipping = 0
+            assert numpy.array_equal(picture(shown.view), image)
+            shown.close()
+
+
+def test_a_file_of_another_type():
+    """Floats are stored as they are; int8 is spread over sixteen bits."""
+    for kind in (numpy.float32, numpy.int16):
+        path = store(kind=kind)
+        direct = Shown(reader(path, Level=0), size=120)
+        streamed = Shown(reader(path, MemoryLimit=0.5 if kind == numpy.float32 else 0.3), size=120)
+        image, state = streamed.detail()
+        assert state["gpuLevel"] == 0, state
+        largest, pixels, _ = differences(image, picture(direct.view))
+        assert pixels == 0, (kind, pixels, largest)
+        direct.close()
+        streamed.close()
+
+
+def test_a_view_from_afar_needs_no_bricks():
+    shown = Shown(coarse(store()))
+    shown.view.CameraPosition = [48.0, 56.0, 1300.0]
+    image, state = shown.detail()
+    assert state["gpuLevel"] == -1 and state["gpuBricks"] == 0, state
+    assert image.any()
+    shown.close()
+
+
+def test_little_memory():
+    """What does not fit stays as coarse as it was, and nothing goes round and round."""
+    path = store()
+    shown = Shown(bent(coarse(path)))
+    full, state = shown.detail()
+    need = sum(state[name] for name in ("gpuScalarBytes", "gpuOtherBytes")) / 2 ** 20
+    all_bricks = state["gpuBricks"]
+    shown.display.MemoryLimit = need - 0.4 * all_bricks * 34 ** 3 * 4 / 2 ** 20
+    part, state = shown.detail()
+    assert 8 <= state["gpuBricks"] < all_bricks, (state, all_bricks)
+    assert state["gpuBricksLackRoom"] == 1, state
+    assert 0 < differences(part, full)[1], "some of it is coarse"
+    assert numpy.array_equal(picture(shown.view), part)
+    shown.display.EmptySpaceSkipping = 0
+    assert numpy.array_equal(picture(shown.view), part)
+    shown.close()
+
+
+def test_damaged():
+    path = store()
+    with open(os.path.join(path, "0", "1.2.1"), "wb") as file:
+        file.write(b"spoiled")
+    direct = Shown(reader(path, Level=0))  # which says it, too
+    shown = Shown(coarse(path))
+    with messages() as said:
+        image, _ = shown.detail()
+        picture(shown.view)
+    assert_says(said.text, "'0/1.2.1'", "level 1")
+    assert said.text.count("cannot be read everywhere") == 1, said.text
+    assert differences(image, picture(direct.view))[1] == 0
+    direct.close()
+    shown.close()
+
+
+def test_bent_while_it_loads():
+    path = store()
+    filter = simple.FreeFormDeformation(Input=coarse(path))
+    shown = Shown(filter)
+    strokes = []
+    for i in range(4):
+        strokes += list(brainshift.soft((30.0 + 10 * i, 56.0, 40.0), (0, 0, 3), 14.0))
+        filter.Strokes = strokes
+        picture(shown.view)
+    image, state = shown.detail()
+    uploads = brainshift.counters(shown.display)["volumeUploads"]
+    again = Shown(simple.FreeFormDeformation(Input=coarse(path), Strokes=strokes))
+    other, _ = again.detail()
+    assert numpy.array_equal(image, other)
+    bricks = state["gpuBricks"]
+    filter.Strokes = strokes[:-14] + list(
+        brainshift.soft((60.0, 56.0, 40.0), (0, 0, 2), 14.0))
+    _, state = shown.detail()
+    assert brainshift.counters(shown.display)["volumeUploads"] == uploads
+    assert state["gpuBricks"] >= bricks
+    shown.close()
+    again.close()
+
+
+def test_two_views():
+    source = coarse(store())
+    one = Shown(source, size=120)
+    other = Shown(source, OPAQUE, size=120)
+    first, _ = one.detail()
+    other.detail()
+    assert numpy.array_equal(picture(one.view), first)
+    one.close()
+    assert other.detail()[1]["gpuLevel"] == 0
+    other.close()
+
+
+def test_what_a_filter_made_is_drawn_as_it_is():
+    """Its numbers are not those of the file."""
+    smooth = simple.Calculator(Input=coarse(store()), Function="2*Intensity",
+                               ResultArrayName="Intensity")
+    shown = Shown(smooth)
+    _, state = shown.detail()
+    assert state["gpuLevel"] == -1 and state["gpuBricksWanted"] == 0, state
+    shown.close()
+
+
+run_tests(globals())
