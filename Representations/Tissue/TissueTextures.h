@@ -34,7 +34,8 @@ enum class GradientSource
 struct TissueRequest
 {
   vtkVolumeProperty* property = nullptr;
-  DrawnValues values; ///< Without scalars there is no tissue.
+  DrawnValues values;          ///< Without scalars there is no tissue.
+  glm::ivec3 wholePoints{ 0 }; ///< Points a side; the values may be of a part.
   double stepMm = 1.0;
   Blend blend = Blend::Composite;
   GradientSource gradients = GradientSource::FullResolution;
