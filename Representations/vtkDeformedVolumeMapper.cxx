@@ -318,6 +318,13 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   TissueRequest tissue;
   tissue.property = property;
   tissue.values = values;
+  tissue.wholePoints = values.grid.dimensions;
+  if (const std::optional<DrawnPart>& part = this->Internal->Part)
+  {
+    const Extent& whole = part->whole;
+    tissue.wholePoints =
+      glm::ivec3(whole[1], whole[3], whole[5]) - glm::ivec3(whole[0], whole[2], whole[4]) + 1;
+  }
   tissue.stepMm = this->StepOn(values.grid);
   tissue.usualStep = this->SampleDistance <= 0.0;
   tissue.blend = blendOf(this, property);

@@ -5,7 +5,7 @@
 #include "Representations/Picture/SelectionCover.h"
 #include "Representations/Window/EdgeSmoothing.h"
 #include "Representations/Window/MovingWindow.h"
-#include "Representations/Window/RankParts.h"
+#include "Representations/Window/VisibleTissue.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
 
@@ -210,16 +210,13 @@ void vtkDeformedVolumeRepresentation::CoverPointSelection(vtkObject* caller, uns
   }
 }
 
-// Ranks blend what they drew from front to back, which is right for these two modes alone. With a
-// table of gradients, the pictures of parts were not those of one process.
+// Ranks blend what they drew from front to back, which is right for these two modes alone.
 std::string vtkDeformedVolumeRepresentation::WhyWhole() const
 {
   const int blend = this->VolumeMapper->GetBlendMode();
   const bool blends =
     blend == vtkVolumeMapper::COMPOSITE_BLEND || blend == vtkVolumeMapper::ISOSURFACE_BLEND;
-  return !blends          ? "its blend mode is neither Composite nor Isosurface"
-    : this->UseTransfer2D ? "it has a 2D transfer function"
-                          : "";
+  return blends ? "" : "its blend mode is neither Composite nor Isosurface";
 }
 
 void vtkDeformedVolumeRepresentation::WidenByTissue(vtkImageData* volume, double bounds[6])
@@ -232,6 +229,17 @@ std::array<int, 6> vtkDeformedVolumeRepresentation::RestExtent(const brainshift:
 {
   const brainshift::Lattice* lattice = this->GetDeformedVolumeMapper()->GetLattice(volume);
   return brainshift::restExtent(whole, lattice, part, haloMm);
+}
+
+void vtkDeformedVolumeRepresentation::CountVisible(
+  vtkImageData* volume, brainshift::TissueCounts& counts)
+{
+  const brainshift::DrawnValues values = brainshift::drawnValuesOf(this->VolumeMapper, volume);
+  if (values.scalars)
+  {
+    const brainshift::Lattice* lattice = this->GetDeformedVolumeMapper()->GetLattice(volume);
+    brainshift::countVisible(values, this->Property, lattice, counts);
+  }
 }
 
 void vtkDeformedVolumeRepresentation::SetDrawnPart(const brainshift::DrawnPart* part)

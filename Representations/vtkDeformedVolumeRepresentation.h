@@ -111,6 +111,7 @@ protected:
   void WidenByTissue(vtkImageData* volume, double bounds[6]) override;
   std::array<int, 6> RestExtent(const brainshift::WholeVolume& whole, vtkImageData* volume,
     const std::array<double, 6>& part, double haloMm) override;
+  void CountVisible(vtkImageData* volume, brainshift::TissueCounts& counts) override;
   void SetDrawnPart(const brainshift::DrawnPart* part) override;
 
   bool AddToView(vtkView* view) override;

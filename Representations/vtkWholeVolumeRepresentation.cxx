@@ -5,10 +5,10 @@
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Window/EvidenceLegend.h"
-#include "Representations/Window/RankAgreement.h"
-#include "Representations/Window/SharedVolume.h"
+#include "Representations/Window/RankParts.h"
 #include "Representations/Workarounds/ParaViewFaults.h"
 
+#include "vtkCommunicator.h"
 #include "vtkCompositeRepresentation.h"
 #include "vtkCoordinate.h"
 #include "vtkInformation.h"
@@ -396,8 +396,7 @@ std::string vtkWholeVolumeRepresentation::TakeExtents(const Group& group, bool d
     taken[i] = group[i]->Measure(drawsParts, problem);
     bounds = brainshift::around(bounds, taken[i].part.tissue);
   }
-  const brainshift::Box box =
-    brainshift::rankParts(bounds, ranks->GetNumberOfProcesses())[ranks->GetLocalProcessId()];
+  const brainshift::Box box = ShareWork(group, bounds, drawsParts, problem);
   for (std::size_t i = 0; i < group.size(); ++i)
   {
     vtkWholeVolumeRepresentation* volume = group[i];
@@ -426,6 +425,35 @@ std::string vtkWholeVolumeRepresentation::TakeExtents(const Group& group, bool d
     group[i]->Draw(taken[i].voxels);
   }
   return {};
+}
+
+// This rank's part of the bounds of all tissue. The parts stay where they are while their work is
+// balanced, so that strokes move few voxels. What fails becomes the problem.
+brainshift::Box vtkWholeVolumeRepresentation::ShareWork(
+  const Group& group, const brainshift::Box& bounds, bool drawsParts, std::string& problem)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  brainshift::TissueCounts counts;
+  counts.box = bounds;
+  for (vtkWholeVolumeRepresentation* volume : group)
+  {
+    if (drawsParts && problem.empty())
+    {
+      problem = brainshift::sentenceThrownBy(
+        "its part of the volume", [&] { volume->CountVisible(volume->Part, counts); });
+    }
+  }
+  const std::vector<long long> own = counts.cells;
+  ranks->AllReduce(own.data(), counts.cells.data(), own.size(), vtkCommunicator::SUM_OP);
+  vtkWholeVolumeRepresentation* first = group.front();
+  const std::vector<brainshift::Box> parts = brainshift::balancedParts(
+    first->RankBoxes, first->AllBoxes, ranks->GetNumberOfProcesses(), counts);
+  for (vtkWholeVolumeRepresentation* volume : group)
+  {
+    volume->RankBoxes = parts;
+    volume->AllBoxes = bounds;
+  }
+  return parts[ranks->GetLocalProcessId()];
 }
 
 // The whole volume, and where its tissue can be, the same on each rank. What fails becomes the

@@ -7,7 +7,7 @@
  * On several MPI ranks, ParaView gives each rank a block of the volume at rest. Bent tissue crosses
  * the borders of such blocks, and bent blocks have no order in depth. So each rank draws a box of
  * the *deformed* frame. It gets the voxels whose tissue can come into that box from the ranks that
- * hold them (Window/RankParts.h, Window/SharedVolume.h). What cannot be drawn so is drawn by the
+ * hold them (Window/RankParts.h, Common/SharedVolume.h). What cannot be drawn so is drawn by the
  * first rank alone: surfaces in the view follow it there.
  */
 #ifndef vtkWholeVolumeRepresentation_h
@@ -31,6 +31,7 @@ class EvidenceLegend;
 class SharedVolume;
 class WindowText;
 struct DrawnPart;
+struct TissueCounts;
 struct WholeVolume;
 }
 
@@ -92,6 +93,8 @@ private:
   /** The voxels whose tissue can come into a part of the deformed frame. */
   virtual std::array<int, 6> RestExtent(
     const brainshift::WholeVolume&, vtkImageData*, const std::array<double, 6>&, double haloMm);
+  /** Adds the visible voxels of a part of the volume to those of a view. */
+  virtual void CountVisible(vtkImageData*, brainshift::TissueCounts&) {}
   /** Draws only a part of the deformed frame. Null: all of it. */
   virtual void SetDrawnPart(const brainshift::DrawnPart*) {}
 
@@ -105,6 +108,8 @@ private:
   static void Bring(const Group& group, vtkInformation* input, vtkInformation* output);
   static void TakeVoxels(const Group& all);
   static std::string TakeExtents(const Group& group, bool drawsParts);
+  static std::array<double, 6> ShareWork(
+    const Group& group, const std::array<double, 6>& bounds, bool drawsParts, std::string& problem);
   static void KeepPicture(const Group& group, const std::string& sentence);
   std::string WhyPartIsWhole();
   Taken Measure(bool drawsParts, std::string& problem);
@@ -133,6 +138,10 @@ private:
   bool DrawsPart = false;    // of several ranks
   double RankHalo = 10.0;    // mm
   std::array<int, 6> Wanted; // extent of voxels to draw
+
+  // Of its view, the same on all ranks.
+  std::vector<std::array<double, 6>> RankBoxes;
+  std::array<double, 6> AllBoxes{}; // that these are parts of
 };
 
 #endif

@@ -5,12 +5,17 @@
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
+#include "Common/SharedVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/Segmentation.h"
 
 #include "vtkDataArray.h"
-#include "vtkImageData.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,6 +119,33 @@ void compareMovingTissue(vtkImageData* image, RegisteredPair& pair)
     growMask(moving, ComparedBesideMm);
     pair.inside = std::move(moving);
   }
+}
+
+vtkSmartPointer<vtkImageData> wholeOnFirstRank(vtkImageData* part, vtkInformation* information)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  std::string problem = problemOf([&] { findGrids(part); });
+  if (!ranks || ranks->GetNumberOfProcesses() == 1)
+  {
+    throwIfAny(problem);
+    requireWhole(part, information);
+    return part;
+  }
+  vtkNew<vtkImageData> sent; // without other arrays
+  Extent whole{ 0, -1, 0, -1, 0, -1 };
+  if (problem.empty())
+  {
+    sent->CopyStructure(part);
+    sent->GetPointData()->SetScalars(scalarsOf(part));
+    sent->GetFieldData()->ShallowCopy(part->GetFieldData());
+    information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole.data());
+  }
+  const WholeVolume volume = SharedVolume::wholeOf(ranks, sent, whole);
+  const bool isFirst = ranks->GetLocalProcessId() == 0;
+  const Extent wanted = isFirst ? volume.extent : Extent{ 0, -1, 0, -1, 0, -1 };
+  const auto image = SharedVolume().share(ranks, sent, volume, wanted, problem);
+  throwIfAny(problem);
+  return isFirst ? image : nullptr;
 }
 
 RegisteredGrids findGrids(vtkImageData* image)

@@ -46,6 +46,7 @@ struct vtkRegistrationRun::Running
   Elsewhere AtFirst;  // of the first result
   Elsewhere Brought;  // the same, if a later result is kept
 
+  void BeginRigid(RegisteredSource source, const RegisteredGrids& grids, int starts);
   void BeginChecks();
   void FinishChecks();
   bool IsFinished() const;
@@ -86,6 +87,24 @@ void fill(vtkDoubleArray* array, const std::vector<double>& values)
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
 }
+}
+
+void vtkRegistrationRun::Running::BeginRigid(
+  RegisteredSource source, const RegisteredGrids& grids, int starts)
+{
+  this->ReferenceMiddle = middleOf(grids.reference);
+  this->Plan = similarities().front().plan;
+  this->Plan.check.halvesMm = AlignHalvesMm;
+  this->Plan.check.otherMm = AlignOtherMm;
+  this->Plan.check.blocks = {}; // tissue may be bent
+  this->Bent = source.bent
+    ? effectiveLattice(*source.bent)
+    : makeLattice(withDimensions(grids.rest, glm::ivec3(StillSides)), KernelCatmullRom);
+  this->Pair = std::move(source.pair);
+  AlignmentSettings search;
+  search.starts = starts;
+  this->Rigid =
+    std::make_unique<Alignment>(this->Pair, source.bent ? &this->Bent : nullptr, search);
 }
 
 void vtkRegistrationRun::Running::BeginChecks()
@@ -205,11 +224,15 @@ void vtkRegistrationRun::SetSource(vtkAlgorithm* source)
 void vtkRegistrationRun::Begin(bool bends)
 {
   *this->Internal = {};
-  vtkImageData* image =
+  vtkImageData* part =
     vtkImageData::SafeDownCast(this->Source ? this->Source->GetOutputDataObject(0) : nullptr);
+  const vtkSmartPointer<vtkImageData> image =
+    wholeOnFirstRank(part, part ? this->Source->GetOutputInformation(0) : nullptr);
+  if (!image)
+  {
+    return; // the first MPI rank registers
+  }
   const RegisteredGrids grids = findGrids(image);
-  // On several MPI ranks this rank holds a piece; registering it alone would be silently wrong.
-  requireWhole(image, this->Source->GetOutputInformation(0));
   if (!(this->Stiffness > 0.0)) // also rejects NaN
   {
     throw brainshift::Problem(
@@ -248,19 +271,7 @@ void vtkRegistrationRun::Begin(bool bends)
     this->Internal->Elastic = std::make_unique<Refinement>(std::move(source.pair), start, settings);
     return;
   }
-  this->Internal->ReferenceMiddle = middleOf(grids.reference);
-  this->Internal->Plan = similarities().front().plan;
-  this->Internal->Plan.check.halvesMm = AlignHalvesMm;
-  this->Internal->Plan.check.otherMm = AlignOtherMm;
-  this->Internal->Plan.check.blocks = {}; // tissue may be bent
-  this->Internal->Bent = source.bent
-    ? effectiveLattice(*source.bent)
-    : makeLattice(withDimensions(grids.rest, glm::ivec3(StillSides)), KernelCatmullRom);
-  this->Internal->Pair = std::move(source.pair);
-  AlignmentSettings search;
-  search.starts = this->Starts;
-  this->Internal->Rigid = std::make_unique<Alignment>(
-    this->Internal->Pair, source.bent ? &this->Internal->Bent : nullptr, search);
+  this->Internal->BeginRigid(std::move(source), grids, this->Starts);
 }
 
 void vtkRegistrationRun::BeginGuarded(bool bends)

@@ -184,6 +184,54 @@ void readBytes(
   }
 }
 
+std::size_t StoredBox::voxelCount() const
+{
+  std::size_t count = 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    count *= static_cast<std::size_t>(this->extent[2 * axis + 1] - this->extent[2 * axis] + 1);
+  }
+  return count;
+}
+
+// Rows that follow one another in the file, in whole slices or a whole volume, are read at once.
+void readBox(
+  const StoredBytes& from, const StoredBox& box, char* to, const FractionDone& fractionDone)
+{
+  const auto side = [&](int axis) { return static_cast<std::uint64_t>(box.dimensions[axis]); };
+  const auto first = [&](int axis) { return static_cast<std::uint64_t>(box.extent[2 * axis]); };
+  const auto count = [&](int axis) {
+    return static_cast<std::uint64_t>(box.extent[2 * axis + 1] - box.extent[2 * axis] + 1);
+  };
+  const bool wholeRows = count(0) == side(0);
+  const bool wholeSlices = wholeRows && count(1) == side(1);
+  const std::uint64_t slices = wholeSlices ? 1 : count(2);
+  const std::uint64_t rows = wholeRows ? 1 : count(1);
+  const std::uint64_t bytes = box.voxelCount() / (slices * rows) * box.bytes; // of a run
+  std::ifstream file;
+  file.rdbuf()->pubsetbuf(nullptr, 0); // it would read more than a short row
+  file.open(from.fileName, std::ios::binary);
+  if (!file)
+  {
+    throw Problem("cannot be opened");
+  }
+  std::uint64_t run = 0;
+  bool stopped = false;
+  for (; run < slices * rows && !stopped; ++run)
+  {
+    const std::uint64_t z = first(2) + run / rows;
+    const std::uint64_t y = first(1) + run % rows;
+    const std::uint64_t before = ((z * side(1) + y) * side(0) + first(0)) * box.bytes;
+    file.seekg(static_cast<std::streamoff>(from.offset + before));
+    readAll(file, to + run * bytes, bytes, [&](double fraction) {
+      const double done =
+        (static_cast<double>(run) + fraction) / static_cast<double>(slices * rows);
+      stopped = !fractionDone(done);
+      return !stopped;
+    });
+  }
+}
+
 std::string readUnpackedBeginning(const std::string& fileName, std::size_t bytes)
 {
   if (!isPlainFile(fileName) || !beginsLikeGzip(fileName))

@@ -4,6 +4,9 @@
 #ifndef BrainShift_PackedBytes_h
 #define BrainShift_PackedBytes_h
 
+#include <glm/glm.hpp>
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -41,6 +44,23 @@ std::vector<char> unpackedGzip(const std::vector<char>& packed, double timesInMe
  * nothing and takes no memory. Packed bytes may still be too few.
  */
 void requireBytes(const StoredBytes& from, double count);
+
+/** Some of the voxels that a file has one after another, x fastest. */
+struct StoredBox
+{
+  glm::ivec3 dimensions{ 0 };  ///< of all voxels
+  std::array<int, 6> extent{}; ///< first and last x, y and z of those that are wanted
+  std::size_t bytes = 0;       ///< of a voxel
+
+  std::size_t voxelCount() const; ///< that are wanted
+};
+
+/**
+ * Fills `to` with these voxels and reads no other ones, or throws the end of a sentence. `from`:
+ * the first of all voxels, not packed. It returns early if `fractionDone` says stop.
+ */
+void readBox(
+  const StoredBytes& from, const StoredBox& box, char* to, const FractionDone& fractionDone);
 
 /** Fills `to`, or throws the end of a sentence. It returns early if `fractionDone` says stop. */
 void readBytes(

@@ -178,11 +178,39 @@ void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 
 double MGHVolume::storedBytes(const VolumeHeader& header) const
 {
-  return this->Numbers ? 0.0 : this->Frames * VolumeFile::storedBytes(header);
+  const int frames = this->readsParts() ? 1 : this->Frames;
+  return this->Numbers ? 0.0 : frames * VolumeFile::storedBytes(header);
+}
+
+void MGHVolume::loadPart(std::size_t volume, const Progress& progress, StoredVoxels& voxels) const
+{
+  auto numbers = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+  const auto size = static_cast<std::size_t>(numbers->GetDataTypeSize());
+  const StoredBox box{ this->Dimensions, voxels.wanted, size };
+  StoredBytes from = this->From;
+  from.offset += volume * size * static_cast<std::size_t>(this->Dimensions.x) *
+    static_cast<std::size_t>(this->Dimensions.y) * static_cast<std::size_t>(this->Dimensions.z);
+  numbers->SetNumberOfTuples(static_cast<vtkIdType>(box.voxelCount()));
+  auto* const to = static_cast<char*>(numbers->GetVoidPointer(0));
+  bool stopped = false;
+  readBox(from, box, to, [&](double fraction) {
+    stopped = !progress(fraction);
+    return !stopped;
+  });
+  if (!stopped)
+  {
+    toMachineOrder(to, box.voxelCount(), size, true);
+    voxels.showWanted(numbers);
+  }
 }
 
 void MGHVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
+  if (this->readsParts())
+  {
+    this->loadPart(volume, progress, voxels);
+    return;
+  }
   const vtkIdType count = vtkIdType(this->Dimensions.x) * this->Dimensions.y * this->Dimensions.z;
   if (!this->Numbers)
   {

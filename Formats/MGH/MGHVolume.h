@@ -24,14 +24,17 @@ public:
   std::string noun() const override { return "FreeSurfer volume"; }
   void readHeader(const std::string& fileName, VolumeHeader& header) override;
   double storedBytes(const VolumeHeader& header) const override;
+  bool readsParts() const override { return !this->From.isPacked; }
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
 private:
+  void loadPart(std::size_t volume, const Progress& progress, StoredVoxels& voxels) const;
+
   StoredBytes From; // the voxels of all frames
   glm::ivec3 Dimensions{ 0 };
   int Frames = 1;
   int Type = VTK_VOID;
-  vtkSmartPointer<vtkDataArray> Numbers; // all frames, kept for the next one
+  vtkSmartPointer<vtkDataArray> Numbers; // all frames of a packed file, kept for the next one
 };
 }
 

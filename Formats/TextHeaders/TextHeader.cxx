@@ -450,4 +450,22 @@ void readNumbers(const TextHeader& header, char* to, const FractionDone& fractio
     toMachineOrder(to, files * bytes / size, size, header.isBigEndian);
   }
 }
+
+bool hasPlainNumbers(const TextHeader& header)
+{
+  return header.encoding == Encoding::Raw && header.dataFiles.size() == 1;
+}
+
+void readNumbers(const TextHeader& header, std::uint64_t skip, const StoredBox& box, char* to,
+  const FractionDone& fractionDone)
+{
+  const std::string& dataFile = header.dataFiles.front();
+  onDataFile(header, dataFile, [&] {
+    StoredBytes from = locate(header, dataFile);
+    from.offset += skip;
+    readBox(from, box, to, fractionDone);
+  });
+  const auto size = static_cast<std::size_t>(vtkDataArray::GetDataTypeSize(header.numberType));
+  toMachineOrder(to, box.voxelCount() * box.bytes / size, size, header.isBigEndian);
+}
 }

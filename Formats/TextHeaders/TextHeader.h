@@ -159,6 +159,16 @@ void requireNumbers(const TextHeader& header);
  */
 void readNumbers(const TextHeader& header, char* to, const FractionDone& fractionDone);
 
+/** Whether all numbers are in one file as they are, so that some can be read without the others. */
+bool hasPlainNumbers(const TextHeader& header);
+
+/**
+ * The same for a box of voxels, of a header with plain numbers. `skip`: bytes of numbers before the
+ * first of the voxels.
+ */
+void readNumbers(const TextHeader& header, std::uint64_t skip, const StoredBox& box, char* to,
+  const FractionDone& fractionDone);
+
 /** Whether a file has the header of a displacement field. */
 bool isTextHeaderField(const std::string& fileName);
 }

@@ -223,6 +223,8 @@ public:
   std::string noun() const override;
   void readHeader(const std::string& fileName, VolumeHeader& header) override;
   double storedBytes(const VolumeHeader& header) const override;
+  // A series whose times are side by side in the file is read as a whole.
+  bool readsParts() const override { return hasPlainNumbers(this->Stored) && !this->TupleIsTime; }
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
   // Which layer of a segmentation the next readHeader takes: one of the choices, or its number.
@@ -240,6 +242,7 @@ private:
   void takeSegments(VolumeHeader& header);
   // False if `progress` says stop.
   bool readAll(const Progress& progress);
+  void loadPart(std::size_t volume, const Progress& progress, StoredVoxels& voxels) const;
 
   TextFormat Format;
   std::string Layer;
@@ -385,7 +388,31 @@ void TextHeaderVolume::takeSegments(VolumeHeader& header)
 
 double TextHeaderVolume::storedBytes(const VolumeHeader&) const
 {
-  return this->Numbers ? 0.0 : this->Stored.dataBytes();
+  const double steps = this->readsParts() ? static_cast<double>(this->Steps) : 1.0;
+  return this->Numbers ? 0.0 : this->Stored.dataBytes() / steps;
+}
+
+void TextHeaderVolume::loadPart(
+  std::size_t volume, const Progress& progress, StoredVoxels& voxels) const
+{
+  auto numbers =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Stored.numberType));
+  const std::size_t bytes = this->Tuple * static_cast<std::size_t>(numbers->GetDataTypeSize());
+  const StoredBox box{ this->Dimensions, voxels.wanted, bytes };
+  const auto skip = volume * (static_cast<std::uint64_t>(this->Stored.dataBytes()) / this->Steps);
+  numbers->SetNumberOfComponents(static_cast<int>(this->Tuple));
+  numbers->SetNumberOfTuples(static_cast<vtkIdType>(box.voxelCount()));
+  bool stopped = false;
+  readNumbers(
+    this->Stored, skip, box, static_cast<char*>(numbers->GetVoidPointer(0)), [&](double fraction) {
+      stopped = !progress(fraction);
+      return !stopped;
+    });
+  if (!stopped)
+  {
+    voxels.firstComponent = this->ShownLayer;
+    voxels.showWanted(numbers);
+  }
 }
 
 bool TextHeaderVolume::readAll(const Progress& progress)
@@ -406,6 +433,11 @@ bool TextHeaderVolume::readAll(const Progress& progress)
 
 void TextHeaderVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
+  if (this->readsParts())
+  {
+    this->loadPart(volume, progress, voxels);
+    return;
+  }
   if (!this->Numbers && !this->readAll(progress))
   {
     return;

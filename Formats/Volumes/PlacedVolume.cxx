@@ -124,6 +124,13 @@ void StoredVoxels::show(const glm::ivec3& dimensions, vtkDataArray* numbers)
   this->image->GetPointData()->SetScalars(numbers);
 }
 
+void StoredVoxels::showWanted(vtkDataArray* numbers)
+{
+  this->image = vtkSmartPointer<vtkImageData>::New();
+  this->image->SetExtent(this->wanted.data());
+  this->image->GetPointData()->SetScalars(numbers);
+}
+
 vtkSmartPointer<vtkDataArray> partOf(vtkDataArray* numbers, vtkIdType first, vtkIdType count)
 {
   constexpr int OwnedByNumbers = 1;

@@ -74,6 +74,9 @@ struct StoredVoxels
 
   /** Makes the image of all voxels from these numbers. */
   void show(const glm::ivec3& dimensions, vtkDataArray* numbers);
+
+  /** Makes the image of the wanted voxels from these numbers. */
+  void showWanted(vtkDataArray* numbers);
 };
 
 /** Some of the values of an array, which must live as long. */

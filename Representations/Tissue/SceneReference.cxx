@@ -54,6 +54,7 @@ SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, cons
   reference.tissue.segment = {}; // the labels are the volume's
   reference.tissue.values = { carried.voxels, carried.grid,
     layoutOf(carried.grid.dimensions, false) };
+  reference.tissue.wholePoints = carried.grid.dimensions;
   reference.tissue.mapped = valueFromReference(carried.voxels, own, range);
   return reference;
 }

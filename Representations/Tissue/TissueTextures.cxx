@@ -26,9 +26,9 @@ glm::dvec2 transferFromStored(const TransferTexture& transfer, const StoredScala
 
 // mm. How far apart VTK's mapper takes samples of a picture that does not move: half the mean voxel
 // side, and less in small volumes. Opacities of a 2D transfer function are for such a step.
-double stockStepOn(const Grid& grid)
+double stockStepOn(const Grid& grid, const glm::ivec3& points)
 {
-  const glm::dvec3 cells(grid.dimensions - 1);
+  const glm::dvec3 cells(points - 1);
   const double side = std::pow(cells.x * cells.y * cells.z, 0.333);
   const double fraction = side < 100.0 ? 0.01 + 0.99 * side / 100.0 : 1.0;
   return fraction * (grid.spacing.x + grid.spacing.y + grid.spacing.z) / 6.0;
@@ -36,7 +36,16 @@ double stockStepOn(const Grid& grid)
 
 double opacityStepOf(const TissueRequest& request)
 {
-  return request.opacity == Opacity::Table ? stockStepOn(request.values.grid) : request.stepMm;
+  return request.opacity == Opacity::Table ? stockStepOn(request.values.grid, request.wholePoints)
+                                           : request.stepMm;
+}
+
+// Texels a side that a texture of the whole volume would have.
+glm::ivec3 wholeTexels(const TissueRequest& request)
+{
+  const ValueLayout& layout = request.values.layout;
+  const glm::ivec3 beyond = request.wholePoints - request.values.grid.dimensions;
+  return layout.dimensions + (beyond + layout.perTexel - 1) / layout.perTexel;
 }
 
 // Nearest: voxels are drawn as they are. Else neighbours are blended.
@@ -183,7 +192,9 @@ SceneSteepness TissueTextures::steepnessFor(const TissueRequest& request) const
   const glm::dvec3& side = request.values.grid.spacing;
   const double width = request.range.y > request.range.x ? request.range.y - request.range.x : 1.0;
   const ValueLayout& layout = request.values.layout;
-  steepness.step = 1.0 / glm::dvec3(glm::max(layout.dimensions - 1, 1));
+  const glm::ivec3 whole = wholeTexels(request);
+  steepness.step =
+    glm::dvec3(whole) / glm::dvec3(layout.dimensions) / glm::dvec3(glm::max(whole - 1, 1));
   steepness.fromGradient = steepness.step / glm::dvec3(layout.perTexel) *
     (side.x + side.y + side.z) / (3.0 * side) * this->Stored.scale / (SteepestFraction * width);
   const glm::dvec2 entry = this->Steepness.entryFromFraction();

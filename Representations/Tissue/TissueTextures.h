@@ -37,7 +37,8 @@ constexpr double MostSamplesOfRay = 8192.0;
 struct TissueRequest
 {
   vtkVolumeProperty* property = nullptr;
-  DrawnValues values; ///< Without scalars there is no tissue.
+  DrawnValues values;          ///< Without scalars there is no tissue.
+  glm::ivec3 wholePoints{ 0 }; ///< Points a side; the values may be of a part.
   double stepMm = 1.0;
   bool usualStep = true; ///< Nobody chose it: it follows the voxels.
   Blend blend = Blend::Composite;

@@ -22,7 +22,56 @@ struct Range
   glm::dvec3 high{ 0.0 };
 };
 
-void cut(const Box& whole, int ranks, std::vector<Box>& parts)
+// A part may have so many times the mean work.
+constexpr double MostWork = 1.5;
+
+// The box of a cell. The last cells of an axis end exactly where the box does.
+Box cellOf(const Box& box, const glm::ivec3& index)
+{
+  Box cell{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double side = box[2 * axis + 1] - box[2 * axis];
+    const auto at = [&](int i) { return box[2 * axis] + side * i / TissueCounts::CellsASide; };
+    cell[2 * axis] = at(index[axis]);
+    cell[2 * axis + 1] = at(index[axis] + 1);
+  }
+  return cell;
+}
+
+// The fraction of a box that is in another one. A box without an extent along an axis counts as one
+// with.
+double fractionIn(const Box& box, const Box& other)
+{
+  double fraction = 1.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double side = box[2 * axis + 1] - box[2 * axis];
+    const double common =
+      std::min(box[2 * axis + 1], other[2 * axis + 1]) - std::max(box[2 * axis], other[2 * axis]);
+    fraction *= side > 0.0 ? std::max(common, 0.0) / side : common >= 0.0;
+  }
+  return fraction;
+}
+
+// Where a cut across an axis leaves a fraction of the work below it. 30 halvings are exact to a
+// billionth of the side.
+double cutAt(const Box& whole, int axis, double fraction, const TissueCounts* counts)
+{
+  double low = 0.0;
+  double high = 1.0;
+  const double side = whole[2 * axis + 1] - whole[2 * axis];
+  const double work = counts ? fraction * counts->workIn(whole) : 0.0;
+  for (int i = 0; counts && i < 30; ++i)
+  {
+    Box below = whole;
+    below[2 * axis + 1] = whole[2 * axis] + side * 0.5 * (low + high);
+    (counts->workIn(below) < work ? low : high) = 0.5 * (low + high);
+  }
+  return whole[2 * axis] + side * (counts ? 0.5 * (low + high) : fraction);
+}
+
+void cut(const Box& whole, int ranks, const TissueCounts* counts, std::vector<Box>& parts)
 {
   if (ranks <= 1)
   {
@@ -36,14 +85,42 @@ void cut(const Box& whole, int ranks, std::vector<Box>& parts)
     axis = side > whole[2 * axis + 1] - whole[2 * axis] ? other : axis;
   }
   const int below = ranks / 2;
-  const double at =
-    whole[2 * axis] + (whole[2 * axis + 1] - whole[2 * axis]) * below / static_cast<double>(ranks);
+  const double at = cutAt(whole, axis, below / static_cast<double>(ranks), counts);
   Box low = whole;
   Box high = whole;
   low[2 * axis + 1] = at;
   high[2 * axis] = at;
-  cut(low, below, parts);
-  cut(high, ranks - below, parts);
+  cut(low, below, counts, parts);
+  cut(high, ranks - below, counts, parts);
+}
+
+// Whether no part has much more work than the mean.
+bool isBalanced(const std::vector<Box>& parts, const TissueCounts& counts)
+{
+  const double most = MostWork * counts.workIn(counts.box) / static_cast<double>(parts.size());
+  return std::all_of(
+    parts.begin(), parts.end(), [&](const Box& part) { return counts.workIn(part) <= most; });
+}
+
+// Parts of a former whole as parts of another one: outer sides follow it. Empty if they do not fit.
+std::vector<Box> fitted(std::vector<Box> parts, const Box& former, const Box& whole)
+{
+  for (Box& part : parts)
+  {
+    for (int side = 0; side < 6; ++side)
+    {
+      part[side] = part[side] == former[side] ? whole[side] : part[side];
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (!(part[2 * axis] >= whole[2 * axis] && part[2 * axis] <= part[2 * axis + 1] &&
+            part[2 * axis + 1] <= whole[2 * axis + 1]))
+      {
+        return {};
+      }
+    }
+  }
+  return parts;
 }
 
 // The smallest box along a grid's own axes that holds a box of the world, grid coordinates.
@@ -114,11 +191,48 @@ Range restOf(const Lattice& lattice, const Range& part)
 }
 }
 
-std::vector<Box> rankParts(const Box& whole, int ranks)
+void TissueCounts::add(const glm::dvec3& place, long long voxels)
+{
+  glm::ivec3 index;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double side = this->box[2 * axis + 1] - this->box[2 * axis];
+    const double at = side > 0.0 ? (place[axis] - this->box[2 * axis]) / side * CellsASide : 0.0;
+    index[axis] = static_cast<int>(std::clamp(at, 0.0, CellsASide - 1.0));
+  }
+  this->cells[(index.z * CellsASide + index.y) * CellsASide + index.x] += voxels;
+}
+
+double TissueCounts::workIn(const Box& part) const
+{
+  double visible = 0.0;
+  double all = 0.0;
+  std::size_t cell = 0;
+  forEachIndex(glm::ivec3(0), glm::ivec3(CellsASide - 1), [&](const glm::ivec3& index) {
+    const auto count = static_cast<double>(this->cells[cell++]);
+    all += count;
+    visible += count > 0.0 ? count * fractionIn(cellOf(this->box, index), part) : 0.0;
+  });
+  const double space = fractionIn(this->box, part);
+  return 0.5 * (all > 0.0 ? visible / all : space) + 0.5 * space;
+}
+
+std::vector<Box> rankParts(const Box& whole, int ranks, const TissueCounts* counts)
 {
   std::vector<Box> parts;
-  cut(whole, ranks, parts);
+  cut(whole, ranks, counts, parts);
   return parts;
+}
+
+std::vector<Box> balancedParts(
+  const std::vector<Box>& parts, const Box& former, int ranks, const TissueCounts& counts)
+{
+  std::vector<Box> kept = fitted(parts, former, counts.box);
+  if (kept.size() != static_cast<std::size_t>(ranks) || !isBalanced(kept, counts))
+  {
+    kept = rankParts(counts.box, ranks);
+  }
+  return isBalanced(kept, counts) ? kept : rankParts(counts.box, ranks, &counts);
 }
 
 Box withoutOuterSides(const Box& part, const Box& whole)

@@ -7,34 +7,15 @@
 #ifndef BrainShift_RankParts_h
 #define BrainShift_RankParts_h
 
-#include "Common/Grid.h"
+#include "Common/RankAgreement.h"
+#include "Common/SharedVolume.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
-#include <array>
-#include <map>
-#include <string>
 #include <vector>
 
 namespace brainshift
 {
 struct Lattice;
-
-/// Least and greatest x, y and z, mm, world axes.
-using Box = std::array<double, 6>;
-
-/// First and last point along x, y and z, as VTK counts them.
-using Extent = std::array<int, 6>;
-
-/// A volume of which ranks hold parts.
-struct WholeVolume
-{
-  Grid grid; ///< Of all points; its origin is the first point of `extent`.
-  Extent extent{ 0, -1, 0, -1, 0, -1 };
-};
-
-/// Least and greatest value of each component of the whole volume's arrays, and last of their
-/// magnitude. By whether the array is of cells, and its name.
-using WholeRanges = std::map<std::pair<bool, std::string>, std::vector<std::array<double, 2>>>;
 
 /// What one rank draws of the deformed frame.
 struct DrawnPart
@@ -46,11 +27,38 @@ struct DrawnPart
   WholeRanges ranges;
 };
 
+/// How many visible voxels are in each cell of a box, which has CellsASide of them a side.
+struct VTKBRAINSHIFTREPRESENTATIONS_EXPORT TissueCounts
+{
+  static constexpr int CellsASide = 16;
+
+  Box box{}; ///< mm
+  std::vector<long long> cells = std::vector<long long>(CellsASide * CellsASide * CellsASide, 0);
+
+  /// Counts voxels at a place (mm), or beside the nearest cell if it is outside.
+  void add(const glm::dvec3& place, long long voxels);
+
+  /// The work in a part of the box: half its fraction of the visible voxels, half its fraction of
+  /// the space. So no part is larger than two of equal parts, whatever is visible.
+  double workIn(const Box& part) const;
+};
+
 /**
  * Cuts a box into one for each rank. Each cut goes across the longest side, and divides it as it
- * divides the ranks.
+ * divides the ranks; with counts, it divides the work so.
  */
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> rankParts(const Box& whole, int ranks);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> rankParts(
+  const Box& whole, int ranks, const TissueCounts* counts = nullptr);
+
+/**
+ * The former parts, or, if the work in one of them is more than half above the mean, new ones:
+ * equal parts if the work in them is near enough to the mean, else balanced ones.
+ *
+ * @param parts    the former parts, may be empty; sides that were sides of the whole follow it
+ * @param former   the whole that these are parts of
+ */
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> balancedParts(
+  const std::vector<Box>& parts, const Box& former, int ranks, const TissueCounts& counts);
 
 /** A part without those of its sides that are sides of the whole: they are far outside. Rays go to
  * their ends there. */

@@ -40,7 +40,7 @@ void main()
   }
   float all = ceil((path.span.y - path.span.x) / stepMm);
   countSamples(taken, max((seen.picture.a > OpaqueEnough ? i : all) - taken, 0.0));
-  gl_FragData[0] = seen.picture;
+  gl_FragData[0] = pictureOfPart(seen.picture);
   gl_FragData[1] = seen.hit < 0.0 ? NoHit : hitAt(path.span.x + seen.hit * stepMm);
 #ifdef WISHES
   gl_FragData[2] = vec4(wishes, -1.0, -1.0);

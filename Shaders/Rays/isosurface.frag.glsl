@@ -60,6 +60,6 @@ void main()
     known = inside;
     before = scalar;
   }
-  gl_FragData[0] = picture;
+  gl_FragData[0] = pictureOfPart(picture);
   gl_FragData[1] = hitAt(march, hit);
 }

@@ -56,6 +56,13 @@ vec2 samplesInPart(Ray ray, float first, vec2 samples)
   return samples;
 }
 
+// The picture of a part. IceT adds bytes without a limit: where light is brighter than its opacity,
+// a sum beyond 255 would begin at 0 again, as black.
+vec4 pictureOfPart(vec4 picture)
+{
+  return partCount > 0 ? vec4(min(picture.rgb, picture.a), picture.a) : picture;
+}
+
 vec3 worldFromDeformed(vec3 deformed)
 {
   return worldFromTexture * deformed + worldOfTextureZero;

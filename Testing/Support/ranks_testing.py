@@ -23,10 +23,11 @@ NOWHERE = (numpy.nan,) * 3
 REFUSES = 4 << 20  # bytes that a rank may take; its part of a volume is larger
 #: What the first of several ranks reports then, each once.
 REFUSALS = ["MPI rank 1 of {}: its part of the volume, .* The first rank draws the whole volume",
-            "MPI rank 0 of {}: its part of the volume, .* The picture stays as it was"]
+            "MPI rank 0 of {}: its part of the volume, .* The picture stays as it was",
+            "MPI rank 1 of {}: its part of the volume has no array .* The picture stays as it was"]
 #: Why ranks draw no parts, as reported.
 REASONS = ["Trace Points are shown beside it", "a volume that is no Deformed Volume is shown",
-           "it is shown as slices", "its blend mode is neither", "it has a 2D transfer function",
+           "it is shown as slices", "its blend mode is neither",
            "two colours compare it with a reference"]
 
 # Points of a ball, shared out among the ranks in order.
@@ -55,6 +56,30 @@ if ranks.GetNumberOfProcesses() > 1 and rank == ranks.GetLocalProcessId():
         pages = int(taken.read().split()[0])
     resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + more, most)
                        if more else (most, most))
+"""
+
+# Turns an image about an axis that is none of the world's.
+TURN = """
+import vtk
+turn = vtk.vtkTransform()
+turn.RotateWXYZ(35.0, 1.0, -2.0, 0.5)
+rows = [turn.GetMatrix().GetElement(i, j) for i in range(3) for j in range(3)]
+"""
+TURN_DATA = TURN + """
+self.GetImageDataOutput().ShallowCopy(self.GetInputDataObject(0, 0))
+self.GetImageDataOutput().SetDirectionMatrix(rows)
+"""
+TURN_INFORMATION = TURN + """
+self.GetOutputInformation(0).Set(vtk.vtkDataObject.DIRECTION(), rows, 9)
+"""
+
+# Hands the volume on, or fails on the second of several ranks.
+FAILS = """
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+fails = {fails}
+if fails and vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == 1:
+    raise RuntimeError("this rank fails")
+self.GetImageDataOutput().ShallowCopy(self.GetInputDataObject(0, 0))
 """
 
 #: How a program starts on several ranks of one machine, whatever its cores and its user.
@@ -211,6 +236,60 @@ def answer_features(found):
     simple.Delete(view)
 
 
+def answer_oblique(found):
+    """A volume whose axes, and so its cropping, lie along no side of the boxes of the ranks."""
+    import brainshift
+    turned = simple.ProgrammableFilter(Input=wavelet(), OutputDataSetType="vtkImageData",
+                                       Script=TURN_DATA, RequestInformationScript=TURN_INFORMATION)
+    volume = simple.FreeFormDeformation(
+        Input=turned, Strokes=brainshift.soft(MIDDLE, (4, 2, 1), 12.0))
+    view = see()
+    display = show_volume(volume, view, "Deformed Volume", COLORS, OPACITIES, array="RTData",
+                          shade=True)
+    display.AmbientOcclusion = 0
+    found["askew"] = picture(view)
+    display.UseCropping = 1
+    display.CroppingOrigin, display.CroppingScale = [2, -1, 1], [0.6, 0.5, 0.7]
+    found["askew and cropped"] = picture(view)
+    simple.Delete(view)
+
+
+def answer_registration(found):
+    """What a few steps find: a position, and points that are bent."""
+    import brainshift
+    volume = bent()
+    compare = simple.CompareVolumes(Input=volume, Reference=wavelet())
+    brainshift.refine(volume, compare, callback=lambda progress: progress.steps < 3)
+    points = numpy.random.default_rng(4).uniform(-9, 9, (50, 3))
+    found["refined"] = brainshift.deformed_from_rest(volume, points)
+    compare.ReferenceTranslation = (1.5, -1.0, 0.5)
+    brainshift.align(compare, callback=lambda progress: progress.steps < 2)
+    found["aligned"] = numpy.array([*compare.ReferenceRotation, *compare.ReferenceTranslation])
+
+
+def answer_failure(found):
+    """The pipeline of one rank fails, while a stroke is made, and works again."""
+    import brainshift
+    made = simple.ProgrammableFilter(Input=wavelet(), OutputDataSetType="vtkImageData",
+                                     Script=FAILS.format(fails=False))
+    volume = simple.FreeFormDeformation(Input=made)
+    view = see()
+    display = show_volume(volume, view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
+    display.AmbientOcclusion = 0
+    before = picture(view)
+    made.Script = FAILS.format(fails=True)
+    kept = picture(view)
+    volume.Strokes = brainshift.soft(MIDDLE, (4, 2, 1), 12.0)
+    kept_again = picture(view)
+    ranks = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses()
+    expected = before if ranks > 1 else kept_again
+    found["picture while a rank fails"] = numpy.array(
+        [abs(kept - before).max(), abs(kept_again - expected).max()])
+    made.Script = FAILS.format(fails=False)
+    found["after a rank failed"] = picture(view)
+    simple.Delete(view)
+
+
 def show_two(kind, make, view):
     """Two volumes, one before the other, of other values, as what `make` gives of their source."""
     far = simple.Wavelet(WholeExtent=[-12, 12, -12, 12, 15, 39], Center=[0, 0, 27])
@@ -361,11 +440,14 @@ def answers(folder=None):
     found = {}
     if folder:
         answer_refusal(found)
+        answer_failure(found)
     answer_volume(found)
     answer_looks(found)
     answer_scene(found)
     answer_parts(found)
     answer_features(found)
+    answer_oblique(found)
+    answer_registration(found)
     answer_several(found)
     answer_slices(found)
     answer_letters(found)

@@ -107,6 +107,79 @@ TEST(RankParts, FillTheSpaceOnce)
   }
 }
 
+// Visible tissue in a corner: an eighth of each side, as an ultrasound sweep in a large volume.
+TEST(RankParts, AreBalancedByWhatIsVisible)
+{
+  TissueCounts counts;
+  counts.box = { -10, 30, 5, 25, 0, 90 };
+  std::mt19937 random(9);
+  std::uniform_real_distribution<> fraction(0.0, 0.125);
+  for (int i = 0; i < 20000; ++i)
+  {
+    counts.add(
+      { -10 + 40 * fraction(random), 5 + 20 * fraction(random), 90 * fraction(random) }, 1);
+  }
+  const auto most = [&](const std::vector<Box>& parts) {
+    double work = 0.0;
+    for (const Box& part : parts)
+    {
+      work = std::max(work, counts.workIn(part));
+    }
+    return work * static_cast<double>(parts.size());
+  };
+  EXPECT_EQ(balancedParts({}, {}, 2, counts), rankParts(counts.box, 2)) << "one would hold all";
+  for (const int ranks : { 3, 4, 8 })
+  {
+    const std::vector<Box> parts = balancedParts({}, {}, ranks, counts);
+    EXPECT_GT(most(rankParts(counts.box, ranks)), 1.9) << ranks; // of the mean
+    EXPECT_LT(most(parts), 1.01) << ranks;
+    double size = 0.0;
+    for (const Box& part : parts)
+    {
+      size += sizeOf(part);
+      EXPECT_LE(sizeOf(part), 2.001 / ranks * sizeOf(counts.box));
+    }
+    EXPECT_NEAR(size, sizeOf(counts.box), 1e-6);
+    EXPECT_EQ(balancedParts(parts, counts.box, ranks, counts), parts) << "nothing moves them";
+  }
+}
+
+TEST(RankParts, StayUntilTheirWorkIsFarFromTheMean)
+{
+  constexpr int ranks = 4;
+  TissueCounts counts;
+  counts.box = { 0, 64, 0, 16, 0, 16 };
+  const auto fill = [&](double from, double to) {
+    std::fill(counts.cells.begin(), counts.cells.end(), 0);
+    for (double x = from; x < to; x += 0.25)
+    {
+      counts.add({ x, 8.0, 8.0 }, 1);
+    }
+  };
+  fill(0.0, 64.0);
+  const std::vector<Box> equal = balancedParts({}, {}, ranks, counts);
+  EXPECT_EQ(equal, rankParts(counts.box, ranks));
+  fill(0.0, 40.0); // a part has 1.3 times the mean
+  EXPECT_EQ(balancedParts(equal, counts.box, ranks, counts), equal);
+  fill(0.0, 8.0);
+  const std::vector<Box> moved = balancedParts(equal, counts.box, ranks, counts);
+  EXPECT_LT(moved[0][1], 8.0);
+
+  // A stroke widens the box: the cuts between the parts stay.
+  const Box former = counts.box;
+  counts.box = { -3, 64, 0, 16, 0, 18 };
+  std::vector<Box> expected = moved;
+  for (Box& part : expected)
+  {
+    part[0] = part[0] == 0.0 ? -3.0 : part[0];
+    part[5] = part[5] == 16.0 ? 18.0 : part[5];
+  }
+  EXPECT_EQ(balancedParts(moved, former, ranks, counts), expected);
+  // Another volume: they do not fit.
+  counts.box = { 100, 164, 0, 16, 0, 16 };
+  EXPECT_EQ(balancedParts(moved, former, ranks, counts)[0][0], 100.0);
+}
+
 TEST(RankParts, HaveAllTissueThatComesIntoThem)
 {
   const WholeVolume volume = obliqueVolume();

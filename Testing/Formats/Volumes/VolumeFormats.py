@@ -11,6 +11,7 @@ from brainshift_testing import (
     data, field, load_plugin, messages, output, run_tests, scratch, voxels)
 from volume_places import (
     LARGEST_MM, assert_has_ras_axes, assert_same_head, assert_same_places, matrix, opened, places)
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 load_plugin()
 from paraview import simple  # noqa: E402 after the plugin
@@ -107,6 +108,65 @@ def head_in(kind):
         return name
     make = volume_files.nrrd if kind == "nrrd" else volume_files.meta_image
     return volume_files.write(name, make(flipped, affine))
+
+
+def bytes_read():
+    """How many bytes this process has read of files so far."""
+    with open("/proc/self/io", encoding="ascii") as counted:
+        return int(counted.readline().split()[1])
+
+
+def part_of(name, proxy_name, extent):
+    """The voxels of an extent, and how many bytes were read for them."""
+    proxy = opened(name, proxy_name)
+    reader = proxy.GetClientSideObject()
+    reader.UpdateInformation()
+    before = bytes_read()
+    reader.UpdateExtent(extent)
+    read = bytes_read() - before
+    image = reader.GetOutputDataObject(0)
+    assert list(image.GetExtent()) == extent, image.GetExtent()
+    simple.Delete(proxy)
+    sides = numpy.subtract(extent[1::2], extent[::2]) + 1
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(*sides[::-1], -1), read
+
+
+def test_a_part_of_a_raw_file_is_read_without_the_others():
+    """For all ways in which axes may be turned: MPI ranks read their parts so."""
+    numbers = volume_files.numbered((33, 40, 25))
+    affines = volume_files.affines()
+    for proxy_name, ending, make in (("NRRDVolumeReader", "nrrd", volume_files.nrrd),
+                                     ("MHAVolumeReader", "mha", volume_files.meta_image),
+                                     ("MGHVolumeReader", "mgh", None)):
+        for affine in affines[::3]:
+            name = scratch(f"part.{ending}")
+            if make:
+                volume_files.write(name, make(numbers, affine))
+            else:
+                nibabel.MGHImage(numbers, affine).to_filename(name)
+            source = opened(name, proxy_name)
+            whole = voxels(source)
+            simple.Delete(source)
+            part, read = part_of(name, proxy_name, [3, 9, 4, 20, 2, 11])
+            assert (part[..., 0] == whole[2:12, 4:21, 3:10]).all(), (proxy_name, affine)
+            assert read <= part.nbytes + 1024, (proxy_name, read, part.nbytes)
+
+
+def test_a_part_of_tuples_and_of_a_later_time():
+    tuples = numpy.arange(2 * 7 * 9 * 6 * 3, dtype="uint16").reshape(3, 6, 9, 7, 2)
+    header = "\n".join((
+        "NRRD0005", "type: ushort", "dimension: 5", "sizes: 2 7 9 6 3", "endian: little",
+        "encoding: raw", "space: right-anterior-superior", "space origin: (0,0,0)",
+        "space directions: none (1,0,0) (0,1,0) (0,0,1) none",
+        "kinds: vector domain domain domain time", "", ""))
+    name = volume_files.write(scratch("tuples.nrrd"), header.encode() + tuples.tobytes())
+    part, read = part_of(name, "NRRDVolumeReader", [1, 4, 0, 8, 2, 4])
+    assert (part == tuples[0, 2:5, :, 1:5]).all()
+    assert read <= part.nbytes + 1024, read
+    later = opened(name, "NRRDVolumeReader")
+    later.UpdatePipeline(2.0)
+    shown = vtk_to_numpy(output(later).GetPointData().GetScalars())
+    assert (shown.reshape(6, 9, 7, 2) == tuples[2]).all()
 
 
 def test_the_same_head_in_all_formats():

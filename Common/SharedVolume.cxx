@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Representations/Window/SharedVolume.h"
+#include "Common/SharedVolume.h"
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
-#include "Representations/Window/RankAgreement.h"
+#include "Common/RankAgreement.h"
 
 #include "vtkCellData.h"
 #include "vtkCommunicator.h"

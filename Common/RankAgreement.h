@@ -5,16 +5,20 @@
 #ifndef BrainShift_RankAgreement_h
 #define BrainShift_RankAgreement_h
 
-#include "Representations/Window/RankParts.h"
+#include "vtkBrainShiftCommonModule.h" // for the export macro
 
+#include <array>
 #include <string>
 
 class vtkMultiProcessController;
 
 namespace brainshift
 {
+/// Least and greatest x, y and z, mm, world axes.
+using Box = std::array<double, 6>;
+
 /** Whether something is true on one rank or more. */
-bool isTrueOnAny(vtkMultiProcessController* ranks, bool here);
+VTKBRAINSHIFTCOMMON_EXPORT bool isTrueOnAny(vtkMultiProcessController* ranks, bool here);
 
 /**
  * Why something fails, on all ranks: the sentence of the first rank that has one, with the rank
@@ -22,10 +26,11 @@ bool isTrueOnAny(vtkMultiProcessController* ranks, bool here);
  *
  * @param here   this rank's sentence without a full stop; empty: it does not fail
  */
-std::string problemOnAny(vtkMultiProcessController* ranks, const std::string& here);
+VTKBRAINSHIFTCOMMON_EXPORT std::string problemOnAny(
+  vtkMultiProcessController* ranks, const std::string& here);
 
 /** The smallest box that holds the boxes of all ranks. */
-Box boxOfAll(vtkMultiProcessController* ranks, const Box& here);
+VTKBRAINSHIFTCOMMON_EXPORT Box boxOfAll(vtkMultiProcessController* ranks, const Box& here);
 }
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Representations/Window/RankAgreement.h"
+#include "Common/RankAgreement.h"
 
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"

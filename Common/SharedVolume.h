@@ -1,22 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The voxels that each of several MPI ranks draws.
+/// The voxels that each of several MPI ranks wants.
 #ifndef BrainShift_SharedVolume_h
 #define BrainShift_SharedVolume_h
 
-#include "Representations/Window/RankParts.h"
+#include "Common/Grid.h"
+#include "vtkBrainShiftCommonModule.h" // for the export macro
 
 #include "vtkImageData.h" // for its smart pointer
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <array>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 class vtkDataArray;
 class vtkMultiProcessController;
 
 namespace brainshift
 {
+/// First and last point along x, y and z, as VTK counts them.
+using Extent = std::array<int, 6>;
+
+/// A volume of which ranks hold parts.
+struct WholeVolume
+{
+  Grid grid; ///< Of all points; its origin is the first point of `extent`.
+  Extent extent{ 0, -1, 0, -1, 0, -1 };
+};
+
+/// Least and greatest value of each component of the whole volume's arrays, and last of their
+/// magnitude. By whether the array is of cells, and its name.
+using WholeRanges = std::map<std::pair<bool, std::string>, std::vector<std::array<double, 2>>>;
+
 /**
  * Gives each MPI rank the voxels that it wants of those that all ranks hold. Only voxels that
  * changed or are wanted anew are sent, so a stroke sends none. What the volume carries as field
@@ -25,7 +44,7 @@ namespace brainshift
  * The pipeline is not asked for other voxels than ParaView asks for: a reader would read its file
  * again whenever the requests of two consumers take turns.
  */
-class SharedVolume
+class VTKBRAINSHIFTCOMMON_EXPORT SharedVolume
 {
 public:
   /**
