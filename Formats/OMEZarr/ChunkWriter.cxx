@@ -2,6 +2,7 @@
 #include "Formats/OMEZarr/ChunkWriter.h"
 
 #include "Common/Problem.h"
+#include "Formats/Files/SystemPath.h"
 #include "Formats/Files/WholeFile.h"
 
 #include <blosc.h>
@@ -29,8 +30,8 @@ std::string packedChunk(const std::string& bytes, std::size_t bytesOfNumber)
 
 void writeEntry(const std::string& folder, const std::string& key, const std::string& bytes)
 {
-  const fs::path path = fs::path(folder) / key;
-  const fs::path beside = path.string() + ".part";
+  const fs::path path = systemPath(folder + "/" + key);
+  const fs::path beside = systemPath(folder + "/" + key + ".part");
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
   withBeginning("entry '" + key + "' cannot be written: ", [&] {

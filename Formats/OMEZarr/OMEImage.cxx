@@ -23,7 +23,7 @@ constexpr std::size_t MostTransformations = 16;
 // What OME's rules say of a group. Version 0.5 keeps it in a member of its own.
 struct Group
 {
-  Json said = Json::object();
+  Json metadata = Json::object();
   Json own; // BrainShift's own metadata
   bool isThere = false;
   bool isArray = false;
@@ -37,13 +37,13 @@ Group groupAt(const ZarrStore& store, const std::string& path)
   {
     group.isThere = group.isVersion3 = true;
     group.isArray = textIn(memberOf(*json, "node_type")) == "array";
-    group.said = memberOf(memberOf(*json, "attributes"), "ome");
+    group.metadata = memberOf(memberOf(*json, "attributes"), "ome");
     group.own = memberOf(memberOf(*json, "attributes"), "brainshift");
   }
   else if (const std::optional<Json> json = readJson(store, keyIn(path, ".zattrs")))
   {
     group.isThere = true;
-    group.said = *json;
+    group.metadata = *json;
     group.own = memberOf(*json, "brainshift");
   }
   group.isThere = group.isThere || store.size(keyIn(path, ".zgroup")).has_value();
@@ -66,7 +66,7 @@ void requireVersion(const Json& version, const Group& group)
 
 void addImages(const Group& group, const std::string& path, std::vector<OMEChoice>& found)
 {
-  const Json& images = memberOf(group.said, "multiscales");
+  const Json& images = memberOf(group.metadata, "multiscales");
   for (std::size_t i = 0; i < (images.is_array() ? images.size() : 0); ++i)
   {
     throwIfAny(found.size() < MostImages
@@ -82,7 +82,7 @@ void addWithLabels(const ZarrStore& store, const std::string& path, std::vector<
 {
   addImages(groupAt(store, path), path, found);
   const std::string folder = keyIn(path, "labels");
-  const Json list = memberOf(groupAt(store, folder).said, "labels");
+  const Json list = memberOf(groupAt(store, folder).metadata, "labels");
   for (const Json& name : list.is_array() ? list : Json::array())
   {
     requireInside(textIn(name));
@@ -94,7 +94,7 @@ void addWithLabels(const ZarrStore& store, const std::string& path, std::vector<
 // The images that Bio-Formats writes beside each other.
 void addSeries(const ZarrStore& store, std::vector<OMEChoice>& found)
 {
-  const Json list = memberOf(groupAt(store, "OME").said, "series");
+  const Json list = memberOf(groupAt(store, "OME").metadata, "series");
   if (list.is_array() && list.size() > MostImages)
   {
     throw Problem("names " + std::to_string(list.size()) + " images in its series; it may name " +
@@ -117,12 +117,12 @@ void addSeries(const ZarrStore& store, std::vector<OMEChoice>& found)
 
 [[noreturn]] void failWithoutImage(const Group& top)
 {
-  if (!memberOf(top.said, "plate").is_null() || !memberOf(top.said, "well").is_null())
+  if (!memberOf(top.metadata, "plate").is_null() || !memberOf(top.metadata, "well").is_null())
   {
     throw Problem("is a plate or a well of a plate; open one of its images, such as A/1/0 in it");
   }
   throw Problem(top.isArray
-      ? "is an array, which does not say where it lies; open the folder of its image"
+      ? "is an array, which does not say where it is; open the folder of its image"
       : "has no multiscales: it holds no image of OME-Zarr 0.4 or 0.5");
 }
 
@@ -137,8 +137,8 @@ bool isSpace(const Json& axis)
 
 bool isOfType(const Json& axis, const std::string& type, const std::string& name)
 {
-  const Json& said = memberOf(axis, "type");
-  return textIn(said) == type || (said.is_null() && textIn(memberOf(axis, "name")) == name);
+  const Json& stated = memberOf(axis, "type");
+  return textIn(stated) == type || (stated.is_null() && textIn(memberOf(axis, "name")) == name);
 }
 
 // The factor of an axis's unit; 1 with a warning where it names none that is known.
@@ -335,13 +335,13 @@ void readColor(const Json& rgba, Label& label)
   }
 }
 
-void readLabels(const Json& said, OMEImage& image)
+void readLabels(const Json& metadata, OMEImage& image)
 {
   std::map<int, Label> labels;
   std::size_t omitted = 0;
   for (const char* list : { "colors", "properties" })
   {
-    const Json& entries = memberOf(said, list);
+    const Json& entries = memberOf(metadata, list);
     for (const Json& entry : entries.is_array() ? entries : Json::array())
     {
       const std::optional<int> value = labelValue(entry);
@@ -434,14 +434,14 @@ std::vector<OMEChoice> imagesOf(const ZarrStore& store)
   const Group top = groupAt(store, "");
   if (found.empty())
   {
-    const Json list = memberOf(top.said, "labels"); // the folder of labels itself was opened
+    const Json list = memberOf(top.metadata, "labels"); // the folder of labels itself was opened
     for (const Json& name : list.is_array() ? list : Json::array())
     {
       requireInside(textIn(name));
       addImages(groupAt(store, textIn(name)), textIn(name), found);
     }
   }
-  if (found.empty() && !memberOf(top.said, "bioformats2raw.layout").is_null())
+  if (found.empty() && !memberOf(top.metadata, "bioformats2raw.layout").is_null())
   {
     addSeries(store, found);
   }
@@ -455,13 +455,13 @@ std::vector<OMEChoice> imagesOf(const ZarrStore& store)
 OMEImage readOMEImage(const ZarrStore& store, const OMEChoice& choice)
 {
   const Group group = groupAt(store, choice.path);
-  const Json& list = memberOf(group.said, "multiscales");
+  const Json& list = memberOf(group.metadata, "multiscales");
   throwIfAny(list.is_array() && choice.index < list.size() ? "" : "has no image " + choice.name);
-  const Json& said = list[choice.index];
-  requireVersion(memberOf(group.isVersion3 ? group.said : said, "version"), group);
+  const Json& metadata = list[choice.index];
+  requireVersion(memberOf(group.isVersion3 ? group.metadata : metadata, "version"), group);
   OMEImage image;
-  readAxes(memberOf(said, "axes"), image);
-  const Json& datasets = memberOf(said, "datasets");
+  readAxes(memberOf(metadata, "axes"), image);
+  const Json& datasets = memberOf(metadata, "datasets");
   if (!datasets.is_array() || datasets.empty() || datasets.size() > MostLevels)
   {
     throw Problem("has " + std::to_string(datasets.is_array() ? datasets.size() : 0) +
@@ -470,12 +470,12 @@ OMEImage readOMEImage(const ZarrStore& store, const OMEChoice& choice)
   for (const Json& dataset : datasets)
   {
     OMELevel level = readLevel(store, choice.path, dataset, image.axes.units.size());
-    takeTransformations(memberOf(said, "coordinateTransformations"), level, false);
-    requireNoOther(image.axes, memberOf(said, "axes"), level.array);
+    takeTransformations(memberOf(metadata, "coordinateTransformations"), level, false);
+    requireNoOther(image.axes, memberOf(metadata, "axes"), level.array);
     image.levels.push_back(std::move(level));
   }
-  readChannels(memberOf(group.said, "omero"), image);
-  const Json& labels = memberOf(group.said, "image-label");
+  readChannels(memberOf(group.metadata, "omero"), image);
+  const Json& labels = memberOf(group.metadata, "image-label");
   const int type = image.levels.front().array.type.vtkType;
   image.isLabelMap = !labels.is_null() && type != VTK_FLOAT && type != VTK_DOUBLE;
   readLabels(labels, image);

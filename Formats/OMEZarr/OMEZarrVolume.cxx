@@ -208,7 +208,8 @@ private:
     const OMELevel& level = this->Image.levels[this->Level];
     std::array<double, 2> range{ 0.0, 1.0 };
     const std::string problem = problemOf([&] {
-      const ZarrArray bricks = readZarrArray(*this->Store, level.bricks);
+      ZarrArray bricks = readZarrArray(*this->Store, level.bricks);
+      bricks.hasAllChunks = true; // their fill value, NaN, is none that says that a chunk is empty
       ZarrBox box{ damage.part.first, std::vector<std::int64_t>(damage.part.first.size(), 1),
         reinterpret_cast<char*>(range.data()),
         std::vector<std::int64_t>(damage.part.first.size(), 0) };

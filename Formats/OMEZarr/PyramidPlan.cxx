@@ -221,25 +221,25 @@ PyramidFile pyramidGroup(const PyramidContent& content, const std::vector<Pyrami
           content.isLabelMap ? "each voxel has the most frequent label of those of the finer level"
                              : "each voxel is the mean of those of the finer level" } } } };
   const std::string version = content.isVersion3 ? "0.5" : "0.4";
-  Json said = Json::object();
-  (content.isVersion3 ? said : image)["version"] = version;
-  said["multiscales"] = Json::array({ image });
+  Json metadata = Json::object();
+  (content.isVersion3 ? metadata : image)["version"] = version;
+  metadata["multiscales"] = Json::array({ image });
   if (content.isLabelMap)
   {
-    said["image-label"] = labelsOf(content, version);
+    metadata["image-label"] = labelsOf(content, version);
   }
   if (!content.channels.empty())
   {
-    said["omero"] = channelsOf(content);
+    metadata["omero"] = channelsOf(content);
   }
   if (content.isVersion3)
   {
     return { "zarr.json",
       { { "zarr_format", 3 }, { "node_type", "group" },
-        { "attributes", { { "ome", said }, { "brainshift", ownOf(content, levels) } } } } };
+        { "attributes", { { "ome", metadata }, { "brainshift", ownOf(content, levels) } } } } };
   }
-  said["brainshift"] = ownOf(content, levels);
-  return { ".zattrs", said };
+  metadata["brainshift"] = ownOf(content, levels);
+  return { ".zattrs", metadata };
 }
 
 PyramidFile pyramidArray(
@@ -257,6 +257,9 @@ PyramidFile pyramidBricks(
   const glm::vec<3, std::int64_t> count(chunksOf(levels[level]));
   std::vector<std::int64_t> shape = inAxes<std::int64_t>(content, content.components, count);
   shape.push_back(2);
-  return arrayFile(content, "bricks/" + std::to_string(level), shape, shape, VTK_DOUBLE);
+  PyramidFile file =
+    arrayFile(content, "bricks/" + std::to_string(level), shape, shape, VTK_DOUBLE);
+  file.json["fill_value"] = "NaN"; // so that no copy leaves out bricks that are zero
+  return file;
 }
 }

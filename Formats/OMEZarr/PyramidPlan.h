@@ -65,7 +65,7 @@ PyramidFile pyramidArray(
 
 /**
  * Of the least and greatest values of the bricks of a level (float64): [channel,] brick z, y, x,
- * and least, greatest. NaN where a brick has no number. One chunk.
+ * and least, greatest. NaN where a brick has no number. One chunk, of the fill value NaN.
  */
 PyramidFile pyramidBricks(
   const PyramidContent& content, const std::vector<PyramidLevel>& levels, std::size_t level);

@@ -3,6 +3,7 @@
 
 #include "Common/Parallel.h"
 #include "Common/Problem.h"
+#include "Formats/Files/SystemPath.h"
 #include "Formats/Files/Text.h"
 #include "Formats/OMEZarr/ChunkWriter.h"
 #include "Formats/OMEZarr/ZarrBox.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
+#include <random>
 #include <thread>
 #include <utility>
 
@@ -22,6 +24,7 @@ namespace brainshift
 namespace
 {
 constexpr const char* Identity = "identity";
+constexpr const char* WriterKey = "writer";
 constexpr std::int64_t MostInRow = 16; // chunks that are made from one box in memory
 
 // All chunks whose numbers along x, y, z are from `first` up to `end`.
@@ -46,12 +49,18 @@ std::string textOf(const Json& json)
   return json.dump(Indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string randomWord()
+{
+  std::random_device random;
+  return joined(random(), "-", random(), "-", random());
+}
+
 void removeAll(const fs::path& path)
 {
   std::error_code error;
   fs::remove_all(path, error);
   throwIfAny(
-    error ? "'" + path.string() + "' cannot be removed: " + error.message() : std::string());
+    error ? "'" + nameOfPath(path) + "' cannot be removed: " + error.message() : std::string());
 }
 
 // The folders of levels, the coarsest first, whether or not those between are there.
@@ -62,7 +71,7 @@ std::vector<fs::path> levelsIn(const fs::path& folder)
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
     entry.increment(error))
   {
-    const std::string name = entry->path().filename().string();
+    const std::string name = nameOfPath(entry->path().filename());
     if (name.find_first_not_of("0123456789") == std::string::npos)
     {
       levels.push_back(entry->path());
@@ -70,8 +79,8 @@ std::vector<fs::path> levelsIn(const fs::path& folder)
   }
   throwIfAny(error ? "its entries cannot be listed: " + error.message() : std::string());
   std::sort(levels.rbegin(), levels.rend(), [](const fs::path& one, const fs::path& other) {
-    const std::string first = one.filename().string();
-    const std::string second = other.filename().string();
+    const std::string first = nameOfPath(one.filename());
+    const std::string second = nameOfPath(other.filename());
     return std::make_pair(first.size(), first) < std::make_pair(second.size(), second);
   });
   return levels;
@@ -99,10 +108,12 @@ void fill(const VoxelBox& from, const Size3& size, std::string& chunk)
 PyramidStore::PyramidStore(std::string folder, PyramidContent content)
   : Folder(std::move(folder))
   , Content(std::move(content))
+  , Writer(randomWord())
   , Levels(pyramidLevels(this->Content.grid))
 {
   this->requireRoom();
-  writeEntry(this->Folder, UnfinishedMark, textOf({ { Identity, this->identity() } }));
+  writeEntry(this->Folder, UnfinishedMark,
+    textOf({ { Identity, this->identity() }, { WriterKey, this->Writer } }));
   const std::string group = this->Content.isVersion3 ? "zarr.json" : ".zgroup";
   Json empty = { { "zarr_format", this->Content.isVersion3 ? 3 : 2 } };
   if (this->Content.isVersion3)
@@ -132,7 +143,7 @@ std::string PyramidStore::identity() const
 void PyramidStore::requireRoom() const
 {
   std::error_code error;
-  const fs::path folder(this->Folder);
+  const fs::path folder = systemPath(this->Folder);
   if (!fs::exists(folder, error))
   {
     return;
@@ -161,9 +172,20 @@ void PyramidStore::requireRoom() const
   }
 }
 
+// A store that another one began or finished meanwhile is left to it.
+void PyramidStore::requireOnlyWriter() const
+{
+  const std::optional<Json> mark = readJson(*this->Store, UnfinishedMark);
+  if (!mark || textIn(memberOf(*mark, WriterKey)) != this->Writer)
+  {
+    throw Problem("Store " + this->Folder +
+      " is being written by another program, which goes on; write this volume under another name");
+  }
+}
+
 void PyramidStore::removeCoarser() const
 {
-  const fs::path folder(this->Folder);
+  const fs::path folder = systemPath(this->Folder);
   for (const fs::path& level : levelsIn(folder))
   {
     if (level.filename() != "0")
@@ -251,6 +273,7 @@ void PyramidStore::note(const Chunk& chunk, const std::string& bytes)
 
 void PyramidStore::put(const Chunk& chunk, const std::string& bytes)
 {
+  this->requireOnlyWriter();
   writeEntry(
     this->Folder, this->keyOf(chunk), packedChunk(bytes, this->Arrays[chunk.level].type.bytes));
   this->note(chunk, bytes);
@@ -324,6 +347,7 @@ void PyramidStore::writeChunk(const Chunk& chunk, const PyramidPiece& piece)
     const std::lock_guard<std::mutex> lock(this->Writing);
     if (this->Written == 0)
     {
+      this->requireOnlyWriter();
       this->removeCoarser();
     }
     ++this->Written;
@@ -340,6 +364,7 @@ bool PyramidStore::finish(const Going& going)
       return false;
     }
   }
+  this->requireOnlyWriter();
   for (std::size_t level = 0; level < this->Levels.size(); ++level)
   {
     this->writeBricks(level);
@@ -348,7 +373,7 @@ bool PyramidStore::finish(const Going& going)
   const PyramidFile group = pyramidGroup(this->Content, this->Levels);
   writeEntry(this->Folder, group.key, textOf(group.json));
   std::error_code error;
-  fs::remove(fs::path(this->Folder) / UnfinishedMark, error);
+  fs::remove(systemPath(this->Folder) / UnfinishedMark, error);
   throwIfAny(error ? "'" + std::string(UnfinishedMark) + "' cannot be removed: " + error.message()
                    : std::string());
   return true;

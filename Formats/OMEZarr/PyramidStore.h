@@ -3,9 +3,10 @@
 /// A folder that becomes an OME-Zarr image, in parts: chunks of the finest level in any order, then
 /// the coarser levels, and last what makes it an image for readers.
 ///
-/// Until then a file, UnfinishedMark, says that it is not finished, and its grid and type. If these
-/// are the same again, each chunk of the finest level that has the same numbers is kept. Before
-/// another one is written, the coarser levels are removed: they are always made of those chunks.
+/// Until then a file, UnfinishedMark, says that it is not finished, its grid and type, and who
+/// writes it. If grid and type are the same again, each chunk of the finest level that has the same
+/// numbers is kept. Before another one is written, the coarser levels are removed: they are always
+/// made of those chunks. Of two writers the first one stops before its next chunk.
 #ifndef BrainShift_PyramidStore_h
 #define BrainShift_PyramidStore_h
 
@@ -61,6 +62,7 @@ private:
 
   std::string Folder;
   PyramidContent Content;
+  std::string Writer; ///< random: it is this one as long as the mark has it
   std::vector<PyramidLevel> Levels;
   std::unique_ptr<ZarrStore> Store;
   std::vector<ZarrArray> Arrays;          ///< of the levels
@@ -72,6 +74,7 @@ private:
 
   std::string identity() const;
   void requireRoom() const;
+  void requireOnlyWriter() const;
   void describeLevels();
   std::size_t numberOf(const Chunk& chunk) const;
   std::string keyOf(const Chunk& chunk) const;

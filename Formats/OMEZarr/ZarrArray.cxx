@@ -51,7 +51,7 @@ std::string choiceIn(
   return text;
 }
 
-// A codec, grid or encoding of version 3: a name, and what else is said of it.
+// A codec, grid or encoding of version 3: a name, and what else its metadata have.
 struct Named
 {
   std::string name;

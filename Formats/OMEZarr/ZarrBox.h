@@ -34,7 +34,7 @@ struct ZarrDamage
 /**
  * Fills a box. A chunk that is not there has the fill value, or counts as damaged if the array has
  * all its chunks. One that is cut off or damaged is
- * added to `damages`, and its part stays as it was; without a list it throws the reason. Returns
+ * added to `damages`, and its part remains as it was; without a list it throws the reason. Returns
  * false if `progress`, which receives the fraction that is done, says stop.
  */
 bool readZarrBox(const ZarrStore& store, const ZarrArray& array, const ZarrBox& box,

@@ -3,6 +3,7 @@
 
 #include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/SystemPath.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/ZipFile.h"
 
@@ -16,7 +17,7 @@ namespace brainshift
 {
 namespace
 {
-// What lies at the top of a store, of version 3 and 2.
+// What is at the top of a store, of version 3 and 2.
 constexpr std::array<const char*, 4> MetadataNames{ "zarr.json", ".zattrs", ".zgroup", ".zarray" };
 
 class FolderStore : public ZarrStore
@@ -29,7 +30,7 @@ public:
 
   std::optional<std::uint64_t> size(const std::string& key) const override
   {
-    const std::string path = this->pathOf(key);
+    const fs::path path = systemPath(this->pathOf(key));
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found)
@@ -106,15 +107,15 @@ private:
 std::string folderOf(const std::string& fileName)
 {
   std::error_code error;
-  if (fs::is_directory(fileName, error))
+  if (fs::is_directory(systemPath(fileName), error))
   {
     return fileName;
   }
-  const fs::path path(fileName);
+  const fs::path path = systemPath(fileName);
   const bool isMetadata = std::any_of(MetadataNames.begin(), MetadataNames.end(),
     [&path](const char* name) { return path.filename() == name; });
   return !isMetadata || !isPlainFile(fileName) ? std::string()
-    : path.has_parent_path()                   ? path.parent_path().string()
+    : path.has_parent_path()                   ? nameOfPath(path.parent_path())
                                                : std::string(".");
 }
 

@@ -50,7 +50,7 @@ bool isZarrStore(const std::string& fileName);
 std::string keyIn(const std::string& group, const std::string& name);
 
 /**
- * Throws the end of a sentence unless a path of the metadata stays in its group: words between
+ * Throws the end of a sentence unless a path of the metadata remains in its group: words between
  * slashes that are neither empty nor "." nor "..".
  */
 void requireInside(const std::string& path);

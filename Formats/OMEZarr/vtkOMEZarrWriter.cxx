@@ -12,6 +12,7 @@
 #include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -152,7 +153,12 @@ int vtkOMEZarrWriter::Write()
   const std::string failed =
     "Store " + this->FileName + " was not finished: the input gave no voxels where it was asked";
   this->Problem = failed; // until a piece comes
+  this->HasEnded = false;
   const int result = this->Superclass::Write();
+  while (!this->HasEnded) // the input failed on this rank
+  {
+    this->FirstRankGoes(false);
+  }
   if (this->Work) // the input failed after some pieces
   {
     this->Work.reset();
@@ -202,7 +208,7 @@ int vtkOMEZarrWriter::RequestData(
   bool goesOn = false;
   this->Problem = sentenceThrownBy(
     "Store " + this->FileName + " cannot be written:", [&] { goesOn = this->TakePiece(); });
-  if (goesOn)
+  if (this->FirstRankGoes(goesOn))
   {
     request->Set(SDDP::CONTINUE_EXECUTING(), 1);
     return 1;
@@ -259,7 +265,7 @@ bool vtkOMEZarrWriter::TakePiece()
   return false;
 }
 
-// What the user must know of the first piece is said at the end.
+// What the user must know of the first piece is reported at the end.
 void vtkOMEZarrWriter::TakeVoxels(OutgoingVolume& volume)
 {
   auto* image = vtkImageData::SafeDownCast(this->GetInput());
@@ -305,6 +311,20 @@ void vtkOMEZarrWriter::Begin(const OutgoingVolume& volume)
   }
   withBeginning("Store " + this->FileName + " cannot be written: ",
     [&] { this->Work->store = std::make_unique<PyramidStore>(this->FileName, content); });
+}
+
+// Whether the first rank goes on, whatever another one says: inputs may work on all ranks at once.
+// Each run ends with one word of it that it does not.
+bool vtkOMEZarrWriter::FirstRankGoes(bool goes)
+{
+  int word = goes ? 1 : 0;
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  if (ranks && ranks->GetNumberOfProcesses() > 1)
+  {
+    ranks->Broadcast(&word, 1, 0);
+  }
+  this->HasEnded = word == 0;
+  return !this->HasEnded;
 }
 
 bool vtkOMEZarrWriter::Go(double fraction)

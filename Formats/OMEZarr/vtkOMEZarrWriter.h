@@ -16,7 +16,7 @@
  * the same grid and type, the chunks of it that have the same voxels are kept. After an error or a
  * stop the folder remains, to be continued.
  *
- * On several MPI ranks each asks for all pieces, and the first one writes.
+ * On several MPI ranks each asks for all pieces, and the first one writes. If that fails, all stop.
  */
 #ifndef vtkOMEZarrWriter_h
 #define vtkOMEZarrWriter_h
@@ -109,6 +109,7 @@ private:
   void Begin(const brainshift::OutgoingVolume& volume);
   bool Go(double fraction);
   void RequireGoing(bool goes) const;
+  bool FirstRankGoes(bool goes);
 
   std::string FileName;
   std::string PointArray;
@@ -118,6 +119,7 @@ private:
   double MemoryLimit = 512.0; // MiB
   std::string Problem = "Nothing was written";
   int PiecesKept = 0;
+  bool HasEnded = false;     // the first rank has reported it
   std::unique_ptr<Run> Work; // while it runs
 };
 

@@ -5,7 +5,7 @@
  *
  * A scene makes many sources, so no reader can output it. The window opens the file of this source
  * with `brainshift.open_scene` and deletes the source. Where there is no window, an error says what
- * to call. The output stays empty.
+ * to call. The output remains empty.
  */
 #ifndef vtkSlicerSceneReader_h
 #define vtkSlicerSceneReader_h

@@ -4,6 +4,7 @@
 import contextlib
 import hashlib
 import os
+import re
 import shutil
 import stat
 import struct
@@ -11,7 +12,7 @@ import tempfile
 import zipfile
 import zlib
 
-from .mrml import SceneProblem, shown
+from .mrml import SceneClause, SceneProblem, shown
 
 try:
     from lzma import LZMAError
@@ -24,6 +25,9 @@ MOST_FILES, MOST_RATIO, SMALL, SPARE = 20_000, 1100, 2**20, 2**30
 #: Marks folders that were made for a scene, so that they may be filled again. It holds the digest
 #: of a bundle, so that files of another one are never taken for its own.
 MARK = ".brainshift-scene"
+
+#: What names of a bundle's files must not have: Windows would put the file elsewhere.
+_ELSEWHERE = re.compile(r":|[ .]$")
 
 #: What zipfile raises for damaged files.
 _FAULTS = (OSError, ValueError, EOFError, RuntimeError, OverflowError, zipfile.BadZipFile,
@@ -44,26 +48,37 @@ def _digest(path):
     return digest.hexdigest()
 
 
-def _taken(folder, digest):
-    """Whether a folder is empty, new or of the same scene; then it is there and marked."""
+def _taken(folder, digest, needed):
+    """Whether a folder is empty, new or of the same scene; then it is there and marked. Raises the
+    end of a sentence if a folder that is to be filled has no room for `needed` bytes."""
     mark = os.path.join(folder, MARK)
     if os.path.isdir(folder) and os.listdir(folder):
         if not os.path.isfile(mark) or not os.access(folder, os.W_OK):
             return False
         with open(mark, encoding="utf-8", errors="replace") as file:
             return file.read(len(digest) + 1) == digest
+    _require_room(folder, needed)
     os.makedirs(folder, exist_ok=True)
     with open(mark, "w", encoding="utf-8") as file:
         file.write(digest)
     return True
 
 
-def _named_folder(path, folder):
+def _require_room(folder, needed):
+    there = folder
+    while not os.path.isdir(there):
+        there = os.path.dirname(there)
+    free = max(shutil.disk_usage(there).free - SPARE, 0)
+    if needed > free and os.access(there, os.W_OK):
+        raise SceneProblem(f"unpacks to {needed} bytes, and {free} are free in {folder}")
+
+
+def _named_folder(path, folder, needed):
     """The folder that the caller names. That of a bundle must hold nothing else."""
     folder = os.path.abspath(folder)
     try:
         digest = _digest(path)
-        if digest and not _taken(folder, digest):
+        if digest and not _taken(folder, digest, needed):
             raise SceneProblem(f"is not unpacked into {folder}, which holds other files; name a "
                                "new or an empty folder")
         os.makedirs(folder, exist_ok=True)
@@ -74,19 +89,20 @@ def _named_folder(path, folder):
     return folder
 
 
-def folder_for(path, folder):
+def folder_for(path, folder, needed=0):
     """A folder for what a scene unpacks to or needs; and a note, or None. `folder`: the one that
-    the caller names, or None for one beside the scene."""
+    the caller names, or None for one beside the scene. `needed`: bytes that a bundle unpacks to."""
     if folder is not None:
-        return _named_folder(path, folder), None
+        return _named_folder(path, folder, needed), None
     digest = _digest(path)
     beside = os.path.splitext(os.path.abspath(path))[0] + "-opened"
     for name in (beside, *(f"{beside} {number}" for number in range(2, 100))):
         try:
-            if _taken(name, digest):
+            if _taken(name, digest, needed):
                 return name, None
         except OSError:
             break
+    _require_room(tempfile.gettempdir(), needed)
     made = tempfile.mkdtemp(prefix="brainshift-scene-")
     return made, (f"Files of the scene are in {made}, because no folder beside it can be written "
                   "to. Name a folder to keep, or saved states will not find them.")
@@ -105,8 +121,13 @@ def _name(entry):
 def _require_good(entry, name):
     """Raises the end of a sentence for an entry that must not be unpacked."""
     parts = name.replace("\\", "/").split("/")
-    if name.startswith(("/", "\\")) or ".." in parts or ":" in parts[0] or "\0" in name:
+    if name.startswith(("/", "\\")) or ".." in parts or "\0" in name:
         raise SceneProblem("leads out of the bundle")
+    if any(_ELSEWHERE.search(part) for part in parts if part != "."):
+        raise SceneProblem("has a name with a colon, or a space or a dot at its end; rename it in "
+                           "the scene")
+    if MARK in (part.lower() for part in parts):
+        raise SceneProblem("has the name of a file that BrainShift makes itself")
     if stat.S_ISLNK(entry.external_attr >> 16):
         raise SceneProblem("is a link")
     if entry.flag_bits & 1:
@@ -115,7 +136,24 @@ def _require_good(entry, name):
         raise SceneProblem(f"announces {entry.file_size} bytes from {entry.compress_size}")
 
 
+def _is_as_packed(entry, path):
+    """Whether a file has the bytes that a bundle has of it."""
+    if os.path.getsize(path) != entry.file_size:
+        return False
+    check = 0
+    with open(path, "rb") as file:
+        while chunk := file.read(_CHUNK):
+            check = zlib.crc32(chunk, check)
+    return check == entry.CRC
+
+
 def _unpack(bundle, entry, path):
+    """Unpacks a file that is not there. One that was changed since is left as it is."""
+    if os.path.isfile(path):
+        if not _is_as_packed(entry, path):
+            raise SceneClause(f"{path} was changed since, and is taken as it is; delete it to have "
+                              "that of the bundle")
+        return
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with _whole(path) as part:
         with bundle.open(entry) as packed, open(part, "wb") as file:
@@ -145,18 +183,10 @@ def _entries(bundle):
     return entries
 
 
-def _require_room(entries, folder):
-    total = sum(entry.file_size for entry in entries)
-    free = shutil.disk_usage(folder).free - SPARE
-    if total > free:
-        if os.listdir(folder) == [MARK]:
-            shutil.rmtree(folder)
-        raise SceneProblem(f"unpacks to {total} bytes, and {max(free, 0)} are free in {folder}")
-
-
 def unpack(path, make_folder):
-    """Unpacks a bundle. `make_folder` returns the folder; it is called once the bundle is known to
-    have a scene. Returns the path of the scene, and sentences on what was left out."""
+    """Unpacks a bundle. `make_folder` returns the folder; it is called with the bytes that the
+    bundle needs, once that is known to have a scene. Returns the path of the scene, and sentences
+    on what was left out."""
     notes, scenes, taken = [], [], set()
     try:
         opened = zipfile.ZipFile(path)
@@ -164,17 +194,18 @@ def unpack(path, make_folder):
         raise SceneProblem(f"cannot be read: {shown(problem)}") from problem
     with opened as bundle:
         entries = _entries(bundle)
-        folder = make_folder()
-        _require_room(entries, folder)
+        folder = make_folder(sum(entry.file_size for entry in entries))
         for entry in entries:
             name = _name(entry)
             try:
                 _require_good(entry, name)
                 target = os.path.join(folder, *name.replace("\\", "/").split("/"))
-                if target in taken:
-                    raise SceneProblem("is there twice; the first counts")
-                taken.add(target)
+                if target.casefold() in taken:
+                    raise SceneProblem("is there twice (capitals do not count); the first counts")
+                taken.add(target.casefold())
                 _unpack(bundle, entry, target)
+            except SceneClause as problem:
+                notes.append(f"File {shown(name)} of the bundle is not unpacked: {problem}.")
             except _FAULTS as problem:
                 subject = "it " if isinstance(problem, SceneProblem) else ""
                 notes.append(f"File {shown(name)} of the bundle is not unpacked: "

@@ -53,7 +53,9 @@ def _matching(folder, name):
 def _named_in(path, is_transform):
     """The paths of the files that a file names, as its reader finds them."""
     with open(path, "rb") as file:
-        text = file.read() if is_transform else file.read(_HEADER_BYTES)
+        text = file.read(_HEADER_BYTES)
+        if is_transform and b"\0" not in text:  # numbers alone name no file
+            text += file.read()
     folder, (stem, end) = os.path.dirname(path), os.path.splitext(path)
     found = [stem + other for other in _PAIRS.get(end.lower(), ())]
     names = _words_in(_header_of(text[:_HEADER_BYTES]))

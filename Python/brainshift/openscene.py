@@ -322,6 +322,9 @@ class _Opening:
                 subject = "" if isinstance(problem, SceneClause) else "it "
                 self.found.notes.append(
                     f"{node.words} is not opened: {subject}{with_way_out(str(problem))}.")
+            except OSError as problem:
+                self.found.notes.append(f"{node.words} is not opened: its file cannot be read: "
+                                        f"{problem}.")
         self.mark_moved()
         self.found.notes[:0] = self.scene.notes
         self.found.notes.extend(self.transforms.notes)
@@ -448,9 +451,9 @@ def open_scene(path, folder=None, outside=False):
     path, active = os.fspath(path), simple.GetActiveSource()
     made = {}
 
-    def own():
+    def own(needed=0):
         if "folder" not in made:
-            made["folder"], note = folder_for(path, folder)
+            made["folder"], note = folder_for(path, folder, needed)
             notes.extend([note] if note else [])
         return made["folder"]
 
@@ -475,8 +478,14 @@ def open_scene(path, folder=None, outside=False):
 
 def open_in_window(path):
     """`open_scene` for File > Open: its warnings go to Output Messages."""
+    from paraview import servermanager
     from vtkmodules.vtkCommonCore import vtkOutputWindow
 
+    if servermanager.ActiveConnection.IsRemote() and not os.path.isfile(path):
+        vtkOutputWindow.GetInstance().DisplayErrorText(
+            f"Scene {path} is on the server, and scenes are read on the machine of the window. "
+            "Copy its folder there, to the same path, or disconnect from the server.\n")
+        return ""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:

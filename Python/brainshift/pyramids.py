@@ -69,8 +69,15 @@ def pyramid(source, out=None, array=None, world=None, version="0.4", progress=No
 
 
 def _stem(path):
-    """A path without its ending, which may have two parts, such as `.nii.gz`."""
-    stem, ending = os.path.splitext(path.rstrip("/"))
+    """A path without its ending, which may have two parts, such as `.nii.gz`. Names of folders have
+    none but that of a store, and a number is none."""
+    path = path.rstrip("/")
+    for known in (".ome.zarr", ".zarr"):
+        if path.lower().endswith(known):
+            return path[:-len(known)]
+    stem, ending = os.path.splitext(path)
+    if os.path.isdir(path) or ending[1:].isdigit():
+        return path
     return os.path.splitext(stem)[0] if ending.lower() == ".gz" else stem
 
 

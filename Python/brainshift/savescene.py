@@ -2,17 +2,20 @@
 """Saves a bent volume as a scene of 3D Slicer."""
 
 import gzip
+import html
 import json
+import math
 import os
 import re
 import shutil
 import tempfile
+import warnings
 from xml.sax.saxutils import quoteattr
 
-from .casesources import inputs_of, sources, stem
-from .files import _write, save_field, save_volume
-from .mrb import MARK, pack
-from .mrml import WORLD_POINTS, encoded
+from .casesources import inputs_of, require_kind, sources, stem
+from .files import _write, reason_of, save_field, save_volume
+from .mrb import MARK, _whole, pack
+from .mrml import WORLD_POINTS, decoded, encoded
 from .views import world_axes
 
 #: The version of Slicer whose scenes these are.
@@ -20,6 +23,12 @@ _VERSION = "Slicer 5.0.3 30893"
 
 #: Signs that names of files must not have on some machine.
 _FORBIDDEN = re.compile(r'[\x00-\x1f\\/:*?"<>|]+')
+
+#: Names that Windows keeps for devices, whatever ending follows.
+_DEVICE = re.compile(r"(?i:con|prn|aux|nul|com\d|lpt\d) *(?:\..*)?")
+
+#: What XML cannot hold.
+_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 #: Most values of a label map that become segments.
 _MOST_SEGMENTS = 10_000
@@ -95,6 +104,22 @@ def _is_own(folder, scene):
         return False
 
 
+def _is_named_beside(data, scene):
+    """Whether another scene or state in the folder of a scene names a folder of data."""
+    folder, name = os.path.split(data)
+    for each in os.listdir(folder):
+        if each == os.path.basename(scene) or not each.lower().endswith((".mrml", ".pvsm")):
+            continue
+        try:
+            with open(os.path.join(folder, each), "rb") as file:
+                text = html.unescape(file.read().decode("utf-8", "replace")).replace("\\", "/")
+        except OSError:
+            return True
+        if f"{name}/" in text or f"{name}/" in decoded(text):
+            return True
+    return False
+
+
 def _data_folders(folder, name):
     """The paths in a folder that have a name or that name with a number, by numbers from 1 on."""
     numbered = re.compile(re.escape(name) + "(?: ([1-9][0-9]{0,8}))?")
@@ -114,13 +139,15 @@ class _Saving:
         """Adds a node; its identifier is that of Slicer's class with a number."""
         number = self.counts[of_class] = self.counts.get(of_class, 0) + 1
         identifier = f"vtkMRML{of_class}Node{number}"
-        words = "".join(f' {key}={quoteattr(str(value))}' for key, value in attributes.items())
+        words = "".join(f" {key}={quoteattr(_NO_XML.sub('_', str(value)))}"
+                        for key, value in attributes.items())
         self.lines.append(f' <{kind} id="{identifier}"{words}></{kind}>')
         return identifier
 
     def file(self, name, ending):
         """A free name of a file: relative to the scene, and its path."""
         base = _FORBIDDEN.sub("_", name).strip(" .") or "data"
+        base = f"_{base}" if _DEVICE.fullmatch(base) else base
         free, number = base, 2
         while (free + ending).lower() in self.taken:
             free, number = f"{base} {number}", number + 1
@@ -152,7 +179,7 @@ class _Saving:
         """The grid transform of a Free-Form Deformation: the map from the parent, as Slicer
         keeps transforms in files."""
         inside, path = self.file(f"{name} deformation", ".nrrd")
-        save_field(bent, path, "Backward", [spacing] * 3 if spacing else None,
+        save_field(bent, path, "Backward", None if spacing is None else [spacing] * 3,
                    world_axes(bent.Input) or "RAS")
         return self.stored((("GridTransform", "GridTransform"),
                             ("TransformStorage", "TransformStorage")),
@@ -175,6 +202,10 @@ class _Saving:
         is_file = isinstance(source, (str, os.PathLike))
         read = simple.LandmarkReader(FileName=os.fspath(source)) if is_file else source
         try:
+            read.UpdatePipeline()
+            reason = reason_of(read) if is_file else ""
+            if reason:
+                raise ValueError(reason)
             _write(servermanager.writers.LandmarkWriter(Input=read, FileName=path), path)
         finally:
             if is_file:
@@ -196,11 +227,10 @@ class _Saving:
     def write(self, path):
         text = (f'<?xml version="1.0" encoding="UTF-8"?>\n<MRML  version="{_VERSION}" userTags="">'
                 "\n" + "\n".join(self.lines) + "\n</MRML>\n")
-        with open(path + ".part", "w", encoding="utf-8") as file:
+        with _whole(path) as part, open(part, "w", encoding="utf-8") as file:
             file.write(text)
             file.flush()
             os.fsync(file.fileno())
-        os.replace(path + ".part", path)
 
 
 def _named(image, values):
@@ -246,6 +276,21 @@ def _geometry_of(image, signs):
             "space origin: " + words(signs * numpy.array(first))]
 
 
+def _warn_of_labels(source):
+    """The warnings that the writer of volumes gives."""
+    times = source.GetPropertyValue("TimestepValues") if (
+        source.SMProxy.GetProperty("TimestepValues")) else None
+    times = [times] if isinstance(times, float) else list(times or [])
+    if len(times) > 1:
+        has = source.GetDataInformation()
+        time = f", at {has.GetTime():g} s" if has.GetHasTime() else ""
+        warnings.warn(f"The segmentation {stem(source)} has {len(times)} times; the scene has one "
+                      f"of them{time}", stacklevel=2)
+    if world_axes(source) is None:
+        warnings.warn(f"The world axes of the segmentation {stem(source)} are unknown: it is "
+                      "written as RAS", stacklevel=2)
+
+
 def _write_segments(source, path):
     """Writes labels as a segmentation of Slicer, of one layer."""
     import numpy
@@ -260,6 +305,7 @@ def _write_segments(source, path):
         raise ValueError(f"the segmentation {stem(source)} has values from {values[0]} to "
                          f"{values[-1]}, {len(values)} of them; it must have whole numbers from 0 "
                          f"on, {_MOST_SEGMENTS} at most")
+    _warn_of_labels(source)
     kind = next(each for each in ("u1", "<u2", "<u4") if values[-1] <= numpy.iinfo(each).max)
     sides = image.GetDimensions()
     signs = numpy.array((1.0, 1.0, 1.0) if world_axes(source) == "LPS" else (-1.0, -1.0, 1.0))
@@ -267,13 +313,12 @@ def _write_segments(source, path):
     lines = ["NRRD0004", f"type: {_TYPES[kind]}", "dimension: 3", *_geometry_of(image, signs),
              "sizes: " + " ".join(str(side) for side in sides), "kinds: domain domain domain",
              "endian: little", "encoding: gzip", *_of_segments(segments, sides), "", ""]
-    with open(path + ".part", "wb") as file:
+    with _whole(path) as part, open(part, "wb") as file:
         file.write("\n".join(lines).encode())
         with gzip.GzipFile(fileobj=file, mode="wb", mtime=0) as packed:
             packed.write(scalars.astype(kind).tobytes())
         file.flush()
         os.fsync(file.fileno())
-    os.replace(path + ".part", path)
 
 
 def _is_moved(points):
@@ -303,6 +348,35 @@ def _bends(report):
 
 def _is_path(given):
     return isinstance(given, (str, os.PathLike))
+
+
+def _require_things(given, spacing):
+    """Raises `ValueError` if something given is of the wrong kind, or if there is nothing."""
+    if spacing is not None and not (math.isfinite(spacing) and spacing > 0):
+        raise ValueError(f"spacing is {spacing!r}; it must be a distance above 0 (mm) or None")
+    if not any(given):
+        raise ValueError("volumes, points and segmentations are empty; there is nothing to save")
+    words = ("volumes", "points", "moved_points", "segmentations")
+    for word, role, things in zip(words, ("volume", "landmarks", "landmarks", "segmentation"),
+                                  given):
+        for each in things:
+            if role == "landmarks" and _is_path(each):
+                continue
+            if not hasattr(each, "SMProxy"):
+                raise ValueError(f"{word} has {each!r}; it must have ParaView sources"
+                                 + (" or paths of files" if role == "landmarks" else ""))
+            require_kind(each, role)
+    for volume in given[0]:
+        _require_at_rest(volume.Input if _kind(volume) == "FreeFormDeformation" else volume)
+
+
+def _require_at_rest(volume):
+    """Raises `ValueError` for a volume that carries a deformation: it would be saved without."""
+    fields = volume.GetDataInformation().GetFieldDataInformation()
+    if fields.GetArrayInformation("FFDDisplacements") is not None:
+        raise ValueError(f"the volume {stem(volume)} comes after a Free-Form Deformation, and "
+                         "would be saved without it; give that filter itself, or a Bake "
+                         "Deformation of this volume")
 
 
 def _save_points(saving, points, above):
@@ -346,7 +420,7 @@ def _save_all(saving, given, how):
 
 
 def _save_beside(path, given, how):
-    """Saves a `.mrml` and a new folder of data. Files of an earlier save stay until the new scene
+    """Saves a `.mrml` and a new folder of data. Files of an earlier save remain until the new scene
     is whole, and longer if a source reads them."""
     folder, name = os.path.split(os.path.splitext(os.path.abspath(path))[0])
     os.makedirs(folder, exist_ok=True)
@@ -363,7 +437,8 @@ def _save_beside(path, given, how):
         raise
     proxies = [each for kind in given for each in kind if not _is_path(each)]
     for each in former.values():
-        if _is_own(each, path) and not _is_read(each, proxies):
+        if (_is_own(each, path) and not _is_read(each, proxies)
+                and not _is_named_beside(each, path)):
             shutil.rmtree(each, ignore_errors=True)
 
 
@@ -391,25 +466,28 @@ def save_scene(path, volumes, points=(), segmentations=(), hardened=True, spacin
 
     Volumes are written where they are, the scene where Python runs. Nothing is overwritten but the
     scene: if there is a folder of its data, the new one ends in `-data 2`, and so on. The former
-    one is deleted once the new scene is whole, unless it has other files or a source reads it. If
-    the scene is not written, the former scene stays.
+    one is deleted once the new scene is whole, unless it has other files, a source reads it, or
+    another scene or state beside it names it. If the scene is not written, the former one remains.
 
-    Raises `ValueError` if `path` has another ending or labels are no whole numbers, and `OSError`
-    with the reason if a file is not written.
+    Raises `ValueError` if `path` has another ending, if something given is of the wrong kind or
+    carries a deformation, and if labels are no whole numbers; `OSError` with the reason if a file
+    is not written.
     """
     path = os.fspath(path)
     base, ending = os.path.splitext(path)
     if ending.lower() not in (".mrml", ".mrb"):
         raise ValueError(f"path is {path!r}; it must end in .mrml or .mrb")
     given = [_list(each) for each in (volumes, points, moved_points, segmentations)]
+    _require_things(given, spacing)
     if ending.lower() == ".mrml":
         _save_beside(path, given, (hardened, spacing))
         return
     name = os.path.basename(base)
     beside = os.path.dirname(os.path.abspath(path))
+    os.makedirs(beside, exist_ok=True)
     around = tempfile.mkdtemp(prefix="brainshift-scene-", dir=beside)
     try:
-        saving = _Saving(os.path.join(around, name.strip() or "scene"), "Data")
+        saving = _Saving(os.path.join(around, name.strip(" .") or "scene"), "Data")
         _save_all(saving, given, (hardened, spacing))
         saving.write(os.path.join(saving.folder, f"{name}.mrml"))
         pack(saving.folder, path)

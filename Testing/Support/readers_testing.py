@@ -14,7 +14,7 @@ import numpy
 import outside_testing
 import volume_files
 import zarr_files
-from brainshift_testing import data
+from brainshift_testing import data, messages
 from paraview import servermanager, simple
 
 AFFINE = volume_files.tilted(list(volume_files.turns())[29])
@@ -185,6 +185,34 @@ def answer_written(found, folder):
     found["files of the series"] = numpy.array([len(os.listdir(series))])
 
 
+#: An input that all ranks make together. Before the second piece it puts a file in the place of the
+#: finest level, which the first rank writes.
+TOGETHER = """
+import os, shutil
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+ranks = vtkMultiProcessController.GetGlobalController()
+output.VTKObject.ShallowCopy(inputs[0].VTKObject)
+if ranks.GetLocalProcessId() == 0 and os.path.isdir(LEVEL):
+    shutil.rmtree(LEVEL)
+    open(LEVEL, "w").close()
+ranks.Barrier()
+"""
+
+
+def answer_stopped(found, folder):
+    """A store whose writing fails on the first rank: the others ask for no piece more."""
+    store = os.path.join(folder, "stopped.zarr")
+    shutil.rmtree(store, ignore_errors=True)
+    level = repr(os.path.join(store, "0"))
+    together = simple.ProgrammableFilter(Input=simple.Wavelet(WholeExtent=[0, 9, 0, 9, 0, 199]),
+                                         Script=TOGETHER.replace("LEVEL", level))
+    writer = servermanager.writers.OMEZarrWriter(Input=together, FileName=store, MemoryLimit=0.0)
+    with messages():
+        writer.UpdatePipeline()
+    writer.SMProxy.UpdatePropertyInformation()
+    found["stopped"] = numpy.array([float("entry '0/" in writer.GetPropertyValue("Problem"))])
+
+
 def refusal(call, *arguments):
     try:
         call(*arguments)
@@ -217,6 +245,7 @@ def answers(folder):
     answer_points(found, folder)
     answer_transforms(found, folder)
     answer_written(found, folder)
+    answer_stopped(found, folder)
     return found
 
 

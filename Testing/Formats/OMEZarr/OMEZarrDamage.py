@@ -3,8 +3,10 @@
 # once for each of them, that one that is missing has the fill value where a writer may leave it
 # out, and that nothing else changes.
 import os
+import shutil
 
 import numpy
+import zarr
 import zarr_files
 from brainshift_testing import load_plugin, messages, output, run_tests, volume
 from zarr_files import CHANNEL, SPACE, TIME, describe, fresh, level, numbers_of, write_array
@@ -199,6 +201,29 @@ def test_a_missing_chunk_of_our_own_store():
         image, said, _ = read(path)
         assert (numbers_of(image)[:60, :60, :60] == 8).all()
         assert f"chunk '{first}0' is missing" in said and "level 1 are shown" in said, said
+        inside = "bricks/0/" + ("" if "zarr 2" in version else "c/") + "0/0/0/0"
+        os.remove(os.path.join(path, inside))  # with the bricks it is not known what was there
+        image, said, _ = read(path)
+        assert (numbers_of(image)[:60, :60, :60] == 8).all() and "level 1 are shown" in said, said
+
+
+def test_a_copy_of_our_own_store_that_is_zero():
+    """zarr-python leaves out its chunks, and copies its bricks."""
+    for version in (2, 3):
+        path, copy = fresh("zero.zarr"), fresh("copy of zero.zarr")
+        servermanager.writers.OMEZarrWriter(
+            Input=volume(numpy.zeros((70, 70, 70), "int16")), FileName=path,
+            Version=["0.4 (zarr 2)", "0.5 (zarr 3)"][version - 2]).UpdatePipeline()
+        for name in (".zattrs", ".zgroup") if version == 2 else ("zarr.json",):
+            shutil.copy(os.path.join(path, name), os.path.join(copy, name))
+        for name in ("0", "1", "bricks/0", "bricks/1"):
+            array = zarr.open_array(os.path.join(path, name), mode="r")
+            write_array(copy, name, array[...], version, array.chunks, fill_value=array.fill_value)
+        assert all(each in (".zarray", ".zattrs", "zarr.json")
+                   for each in os.listdir(os.path.join(copy, "0"))), "all chunks are left out"
+        image, said, _ = read(copy)
+        assert (numbers_of(image) == 0).all() and image.GetNumberOfPoints() == 70 ** 3
+        assert "everywhere" not in said, said
 
 
 run_tests(globals())

@@ -14,6 +14,7 @@ from zarr_files import fresh, numbers_of
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift import pyramids  # noqa: E402
 from brainshift.roles import reader_of  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 
@@ -275,6 +276,11 @@ def test_from_a_file():
             raise AssertionError(words)
         except ValueError:
             pass
+    os.makedirs(scratch("folder.v1"), exist_ok=True)
+    whole = scratch("folder.v1")
+    for name, right in (("a.ome.zarr", "a"), ("a.zarr/", "a"), ("a.nii.gz", "a"),
+                        ("a.b.mha", "a.b"), ("scan.2024", "scan.2024"), (whole, whole)):
+        assert pyramids._stem(name) == right, name
 
 
 def test_parts_of_a_nifti_file():
@@ -382,6 +388,30 @@ def test_no_stale_coarser_level():
         good(volume(values[::-1], spacing=(spacing,) * 3), path)
         assert (array_of(path, "0") == values[::-1]).all()
         assert (array_of(path, "1") == mean_of(values[::-1])).all(), (spacing, removed)
+
+
+def test_two_writers_of_one_store():
+    """The second begins while the first writes: the store has the voxels of the second alone."""
+    values = zarr_files.values_of((200, 70, 66), "int16")
+    other = values[::-1]
+    for fraction, spacing in [(f, s) for f in (0.3, 0.9) for s in (1, 2)]:
+        path, second = target("two.ome.zarr"), []
+        writer = servermanager.writers.OMEZarrWriter(
+            Input=volume(values), FileName=path, MemoryLimit=0.0)
+        own = writer.GetClientSideObject()
+
+        def begin_second(*_):
+            if own.GetProgress() >= fraction and not second:
+                second.append(written(volume(other, spacing=(spacing,) * 3), path, MemoryLimit=0.0))
+        own.AddObserver("ProgressEvent", begin_second)
+        with messages():
+            writer.UpdatePipeline()
+        writer.SMProxy.UpdatePropertyInformation()
+        problem = writer.GetPropertyValue("Problem")
+        assert "is being written by another program" in problem, (fraction, spacing, problem)
+        assert second[0][1] == "", second
+        assert (array_of(path, "0") == other).all()
+        assert (array_of(path, "1") == mean_of(other)).all()
 
 
 def test_what_is_refused():

@@ -312,6 +312,22 @@ def test_a_second_save_takes_the_place_of_the_first():
     assert last in folders(folder) and len(folders(folder)) == 2
 
 
+def test_files_that_another_scene_names_stay():
+    folder = fresh("two scenes")
+    bent = bent_file(head_in(folder, "T1.nrrd"))
+    path, other = os.path.join(folder, "a b.mrml"), os.path.join(folder, "other.mrml")
+    brainshift.save_scene(path, bent, hardened=False)
+    for ending in (".mrml", ".pvsm"):
+        last = folders(folder)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        with open(other[:-5] + ending, "w", encoding="utf-8") as file:
+            file.write(text if ending == ".mrml" else text.replace("%20", " "))
+        brainshift.save_scene(path, bent, hardened=False)
+        assert set(last) < set(folders(folder)), (last, folders(folder))
+    assert not brainshift.open_scene(other).notes
+
+
 def test_a_scene_that_is_saved_onto_itself_keeps_what_its_sources_read():
     folder = fresh("onto itself")
     path = os.path.join(folder, "scene.mrml")
@@ -354,6 +370,82 @@ def test_a_scene_that_is_refused_leaves_the_former_one():
         raise AssertionError("labels below 0 are not refused")
     assert contents(folder) == before
     assert len(folders(folder)) == 1
+
+
+def refused(path, *arguments, **named):
+    """Why a scene is not saved. Nothing is left of it."""
+    try:
+        brainshift.save_scene(path, *arguments, **named)
+    except (ValueError, OSError) as problem:
+        left = [name for name in os.listdir(os.path.dirname(path)) if name != "T1.nrrd"]
+        assert not left, left
+        return f"{type(problem).__name__}: {problem}"
+    raise AssertionError(f"{path} is saved")
+
+
+def test_what_is_no_volume_is_refused():
+    folder = fresh("wrong kinds")
+    bent, path = bent_file(head_in(folder, "T1.nrrd")), os.path.join(folder, "p.mrml")
+    sphere = simple.Sphere(registrationName="ball")
+    assert "volume must be a volume; ball is" in refused(path, sphere)
+    assert "segmentation must be a volume; ball is" in refused(path, bent, segmentations=sphere)
+    assert "landmarks must be points; T1 is" in refused(path, bent, points=bent.Input)
+    for things in ({"volumes": None}, {"volumes": "head.nrrd"},
+                   {"volumes": bent, "segmentations": "labels.nrrd"}):
+        assert "it must have ParaView sources" in refused(path, **things), things
+    assert "nothing to save" in refused(path, [])
+    for spacing in (0, -1, numpy.nan, numpy.inf):
+        assert "spacing is" in refused(path, bent, spacing=spacing), spacing
+    with messages():
+        missing = refused(path, bent, points=os.path.join(folder, "missing.fcsv"))
+    assert "ValueError" in missing and "missing.fcsv does not exist" in missing, missing
+
+
+def test_a_volume_behind_a_deformation_is_refused():
+    folder = fresh("behind")
+    bent, path = bent_file(head_in(folder, "T1.nrrd")), os.path.join(folder, "p.mrml")
+    behind = simple.ExtractSubset(registrationName="part", Input=bent)
+    for each in (behind, simple.FreeFormDeformation(Input=behind)):
+        assert "volume part comes after a Free-Form Deformation" in refused(path, each)
+    brainshift.save_scene(path, simple.BakeDeformation(Input=bent))
+
+
+def test_labels_of_unknown_axes_and_of_several_times():
+    import nibabel
+    folder = fresh("labels")
+    labels = volume(LABELS, ORIGIN, (2.0, 2.0, 2.0))
+    times = nibabel.Nifti1Image(numpy.stack([LABELS, LABELS], axis=-1), numpy.eye(4))
+    nibabel.save(times, os.path.join(folder, "times.nii"))
+    for source, word in ((labels, "axes of the segmentation"),
+                         (simple.NIFTIVolumeReader(FileName=os.path.join(folder, "times.nii")),
+                          "has 2 times; the scene has one of them")):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            brainshift.save_scene(os.path.join(folder, "p.mrml"), [], segmentations=source)
+        assert len(caught) == 1 and word in str(caught[0].message), [str(e.message) for e in caught]
+
+
+def test_names_that_xml_or_windows_do_not_take():
+    folder = fresh("names/of things")
+    sources = [in_lps(HEAD, name) for name in ("bad\x01name", "CON", "nul.1")]
+    path = os.path.join(folder, "new", "a..mrb")  # a folder that is not there
+    brainshift.save_scene(path, sources)
+    found = brainshift.open_scene(path)
+    assert list(found.volumes) == ["bad_name", "CON", "nul.1"] and not found.notes, found
+    names = sorted(os.path.basename(name) for name in zipfile.ZipFile(path).namelist())
+    assert names == ["_CON.nrrd", "_nul.1.nrrd", "a..mrml", "bad_name.nrrd"], names
+
+
+def test_nothing_is_left_of_a_file_that_fails():
+    folder = fresh("full")
+    os.makedirs(os.path.join(folder, "p.mrml"))
+    bent = bent_file(head_in(folder, "T1.nrrd"))
+    try:
+        brainshift.save_scene(os.path.join(folder, "p.mrml"), bent, hardened=False)
+    except OSError:
+        assert sorted(os.listdir(folder)) == ["T1.nrrd", "p.mrml"], os.listdir(folder)
+    else:
+        raise AssertionError("a folder is no file")
 
 
 

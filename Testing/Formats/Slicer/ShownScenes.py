@@ -1,17 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that the active view shows of a scene of 3D Slicer what Slicer shows: the volume of the
-# slices in its window of grey values, landmarks and surfaces in their colours.
+# slices in its window of grey values, landmarks and surfaces in their colours; and that files of a
+# bundle that were changed or have names that no system takes are left alone, with a note.
+import os
+import shutil
 import warnings
+import zipfile
 
 import numpy
 import slicer_testing as slicer
-from brainshift_testing import load_plugin, run_tests
+from brainshift_testing import load_plugin, messages, output, run_tests, scratch
 from slicer_testing import Written
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift import mrb, openscene  # noqa: E402
 from brainshift.carried import display_of  # noqa: E402
-from paraview import simple  # noqa: E402
+from brainshift.mrb import MARK  # noqa: E402
+from paraview import servermanager, simple  # noqa: E402
 
 
 def shown_scene(scene):
@@ -22,6 +28,100 @@ def shown_scene(scene):
     with warnings.catch_warnings(record=True):
         warnings.simplefilter("always")
         return brainshift.open_scene(scene.written()), view
+
+
+def test_what_cannot_be_read_is_one_note():
+    """The file of one volume fails; the others open."""
+    scene = Written("unreadable")
+    for name in ("one", "two", "three"):
+        add_volume(scene, name)
+    right = openscene._reader_of
+
+    def failing(path):
+        if path.endswith("two.nrrd"):
+            raise PermissionError(13, "Permission denied", path)
+        return right(path)
+    openscene._reader_of = failing
+    try:
+        found, _ = shown_scene(scene)
+    finally:
+        openscene._reader_of = right
+    assert list(found.volumes) == ["one", "three"], found
+    assert len(found.notes) == 1 and "'two' is not opened: its file cannot" in found.notes[0], found
+
+
+def opened_of(path, **options):
+    with warnings.catch_warnings(record=True):
+        warnings.simplefilter("always")
+        return brainshift.open_scene(path, **options)
+
+
+def test_what_was_changed_in_an_opened_bundle_stays():
+    scene = Written("to edit")
+    scene.linear("T", slicer.TURN)
+    scene.landmarks("F", numpy.eye(3) * 20)
+    path = scene.bundle("edited.mrb", "s")
+    assert not opened_of(path).notes
+    inside = scratch("edited-opened/s/F.mrk.json")
+    with open(inside, encoding="utf-8") as file:
+        text = file.read().replace("20.0", "21.0")  # as long as before
+    with open(inside, "w", encoding="utf-8") as file:
+        file.write(text)
+    found = opened_of(path)
+    assert len(found.notes) == 1 and "was changed since" in found.notes[0], found.notes
+    with open(inside, encoding="utf-8") as file:
+        assert file.read() == text
+    places = output(found.points["F"]).GetBounds()
+    assert places[1] == 21.0 or places[0] == -21.0, places
+
+
+def test_names_in_bundles():
+    path = scratch("names.mrb")
+    shutil.rmtree(scratch("names-opened"), ignore_errors=True)
+    with zipfile.ZipFile(path, "w") as file:
+        for name in ("s/s.mrml", "s/a.txt", "s/A.TXT", "s/b:c", "s/d ", "s/e./f", MARK,
+                     "s/" + MARK):
+            file.writestr(name, "<MRML></MRML>")
+    notes = opened_of(path).notes
+    assert len(notes) == 6, notes
+    for word, count in (("twice", 1), ("a colon", 3), ("makes itself", 2)):
+        assert sum(word in note for note in notes) == count, (word, notes)
+    assert opened_of(path).notes == notes
+    assert not os.path.exists(scratch("names-opened 2")), "the mark is the bundle's no more"
+
+
+def test_a_bundle_without_room_leaves_the_callers_folder():
+    scene = Written("roomless")
+    path, folder = scene.bundle("roomless.mrb"), scratch("a folder of mine")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    spare, mrb.SPARE = mrb.SPARE, 2**60
+    try:
+        for chosen in (folder, None):
+            try:
+                opened_of(path, folder=chosen)
+            except ValueError as problem:
+                assert "0 are free" in str(problem), problem
+            else:
+                raise AssertionError("there is room")
+    finally:
+        mrb.SPARE = spare
+    assert os.listdir(folder) == [] and not os.path.exists(scratch("roomless-opened"))
+
+
+def test_a_scene_on_a_server_is_refused():
+    class Remote:
+        @staticmethod
+        def IsRemote():
+            return True
+    connection = servermanager.ActiveConnection
+    servermanager.ActiveConnection = Remote
+    try:
+        with messages() as told:
+            openscene.open_in_window("/elsewhere/scene.mrml")
+    finally:
+        servermanager.ActiveConnection = connection
+    assert "/elsewhere/scene.mrml is on the server" in told.text, told.text
 
 
 def add_volume(scene, name, kind="Volume", **attributes):

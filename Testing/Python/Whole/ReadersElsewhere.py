@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that what reads volumes, series, fields, transforms and landmarks gives the same on a
 # pvserver, on one of 2 ranks, and on 2 and 3 ranks of pvbatch, as in one process: each voxel once,
-# each point once, series to choose, files written once, and errors that end.
+# each point once, series to choose, files written once, and errors that end on all ranks.
 import os
 
 import nibabel
@@ -59,13 +59,15 @@ def test_one_process_reads_what_others_wrote():
     assert EXPECTED["landmarks"] == 32 and EXPECTED["times"].tolist() == [0.0, 10.0]
     assert EXPECTED["later"][:, 3].min() == 500 and EXPECTED["other series"][:, 3].min() == 2000
     assert numpy.abs(EXPECTED["mapped"] - readers_testing.POINTS).max() > 1.0
+    assert EXPECTED["stopped"]
     assert EXPECTED["files of the series"] == nibabel.as_closest_canonical(image).shape[2]
     assert_refused(refusals())
 
 
 def test_ranks_of_pvbatch():
     for ranks in (2, 3):
-        found, said = batch(ranks, FOLDER, readers_testing.__file__)
+        found, said = batch(ranks, FOLDER, readers_testing.__file__,
+                            expected=["entry '0/"])
         assert_same(found)
         assert said.count("sheared.nrrd is sheared") == 1, "the first rank speaks for all"
 
