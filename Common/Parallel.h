@@ -27,6 +27,13 @@ BRAINSHIFT_COMMON_EXPORT void loopInPieces(
   std::int64_t first, std::int64_t last, const LoopBody& body);
 
 /**
+ * From now on all loops of the calling thread run on it alone. For threads beside the one that runs
+ * pipelines: vtkSMPTools has one state for all threads, and a picture that is drawn meanwhile keeps
+ * its cores.
+ */
+BRAINSHIFT_COMMON_EXPORT void keepLoopsOnThisThread();
+
+/**
  * Calls body(begin, end) for pieces that together are `first` to `last`, on many threads.
  *
  * Pieces must not depend on each other. Then the result equals that of body(first, last), bit for

@@ -16,6 +16,8 @@ namespace brainshift
 {
 namespace
 {
+thread_local bool isAlone = false;
+
 // Whether vtkSMPTools is on one core because the user chose no back end.
 bool leftSequential()
 {
@@ -28,8 +30,18 @@ bool leftSequential()
 }
 }
 
+void keepLoopsOnThisThread()
+{
+  isAlone = true;
+}
+
 void loopInPieces(std::int64_t first, std::int64_t last, const LoopBody& body)
 {
+  if (isAlone)
+  {
+    body(first, last);
+    return;
+  }
   PieceRunner runner(body);
   const LoopBody piece = [&](std::int64_t begin, std::int64_t end) { runner.run(begin, end); };
   if (leftSequential())

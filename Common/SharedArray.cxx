@@ -156,10 +156,7 @@ public:
     auto array = vtkSmartPointer<SharedArray>::Take(new SharedArray);
     array->InitializeObjectBase();
     array->Source = source;
-    array->SetName(source->GetName());
-    array->SetNumberOfComponents(source->GetNumberOfComponents());
-    array->CopyComponentNames(source);
-    array->SetVoidArray(source->GetVoidPointer(0), source->GetNumberOfValues(), 1); // not owned
+    array->ShallowCopy(source); // further copies keep the numbers, too
     array->SetLookupTable(source->GetLookupTable());
     return array;
   }
@@ -184,7 +181,8 @@ private:
   template <Counted Kind>
   bool give(double* ranges, RangeOf rangeOf)
   {
-    if (auto* shared = dynamic_cast<SharedArray*>(this->Source.Get()))
+    auto* shared = dynamic_cast<SharedArray*>(this->Source.Get());
+    if (shared && shared->GetPointer(0) == this->GetPointer(0))
     {
       return shared->template give<Kind>(ranges, rangeOf);
     }
@@ -213,7 +211,7 @@ private:
     vtkMTimeType time = 0;
     std::vector<double> ranges;
   };
-  vtkSmartPointer<vtkDataArray> Source; // owns the numbers
+  vtkSmartPointer<vtkDataArray> Source; // whose numbers these are
   std::array<KnownRanges, CountedKinds> Known;
 };
 

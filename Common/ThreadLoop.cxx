@@ -20,6 +20,11 @@ void runPiece(PieceRunner& runner, std::int64_t first, std::int64_t last)
 }
 }
 
+void keepLoopsOnThisThread()
+{
+  withinPiece = true;
+}
+
 void loopInPieces(std::int64_t first, std::int64_t last, const LoopBody& body)
 {
   const std::int64_t cores = std::max(1u, std::thread::hardware_concurrency());

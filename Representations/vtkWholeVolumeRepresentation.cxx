@@ -43,7 +43,8 @@ constexpr brainshift::Extent NoExtent{ 0, -1, 0, -1, 0, -1 };
 
 constexpr brainshift::Box NoBox{ 1e300, -1e300, 1e300, -1e300, 1e300, -1e300 };
 constexpr const char* Kept = ". The picture stays as it was, and strokes are kept";
-constexpr const char* WayOut = ". Start more ranks, or lower RankHalo";
+constexpr const char* WayOut = ". If memory lacks, start more ranks or lower RankHalo; each change "
+                               "of RankHalo tries parts again";
 
 // The box of a grid's corners, mm.
 brainshift::Box cornersOf(const brainshift::Grid& grid)
@@ -326,6 +327,10 @@ void vtkWholeVolumeRepresentation::TakeVoxels(const Group& all)
       KeepPicture({ volume }, {});
     }
   }
+  if (group.empty()) // on all ranks
+  {
+    return;
+  }
   std::string reason;
   std::string problem = brainshift::sentenceThrownBy("its volume", [&] {
     for (vtkWholeVolumeRepresentation* volume : group)
@@ -335,7 +340,7 @@ void vtkWholeVolumeRepresentation::TakeVoxels(const Group& all)
   });
   problem = brainshift::problemOnAny(ranks, problem);
   const bool drawsParts = !brainshift::isTrueOnAny(ranks, !reason.empty());
-  if (problem.empty() && !drawsParts && !group.empty())
+  if (problem.empty() && !drawsParts)
   {
     group.front()->WarnOfFirstRank(reason);
   }

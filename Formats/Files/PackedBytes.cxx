@@ -203,6 +203,10 @@ void readBox(
   const auto count = [&](int axis) {
     return static_cast<std::uint64_t>(box.extent[2 * axis + 1] - box.extent[2 * axis] + 1);
   };
+  if (box.voxelCount() == 0) // a rank without a part
+  {
+    return;
+  }
   const bool wholeRows = count(0) == side(0);
   const bool wholeSlices = wholeRows && count(1) == side(1);
   const std::uint64_t slices = wholeSlices ? 1 : count(2);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Volumes/FinerLevels.h"
 
+#include "Common/ImageGrid.h"
+#include "Common/Problem.h"
+
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
@@ -15,7 +18,6 @@ namespace
 struct Remembered
 {
   vtkWeakPointer<vtkDataArray> numbers;
-  vtkMTimeType time; // of the array when it was read
   LevelSource source;
 };
 
@@ -47,11 +49,18 @@ bool LevelSource::operator==(const LevelSource& other) const
 {
   return this->format == other.format && this->fileName == other.fileName &&
     this->choice == other.choice && this->level == other.level && this->channel == other.channel &&
-    this->volume == other.volume && this->worldFromFile == other.worldFromFile;
+    this->volume == other.volume && this->worldFromFile == other.worldFromFile &&
+    this->grid == other.grid && this->type == other.type && this->components == other.components &&
+    this->time == other.time;
 }
 
-void rememberLevels(vtkDataArray* numbers, LevelSource source, const VolumeHeader& header)
+void rememberLevels(vtkImageData* image, LevelSource source, const VolumeHeader& header)
 {
+  vtkDataArray* numbers = image->GetPointData()->GetScalars();
+  source.grid = gridOf(image);
+  source.type = numbers->GetDataType();
+  source.components = numbers->GetNumberOfComponents();
+  source.time = numbers->GetMTime();
   source.level = largestOf(header, LevelArray);
   std::vector<Remembered>& all = allRemembered();
   all.erase(std::remove_if(all.begin(), all.end(),
@@ -59,7 +68,7 @@ void rememberLevels(vtkDataArray* numbers, LevelSource source, const VolumeHeade
     all.end());
   if (source.level > 0)
   {
-    all.push_back({ numbers, numbers->GetMTime(), source });
+    all.push_back({ numbers, source });
   }
 }
 
@@ -68,8 +77,8 @@ std::optional<LevelSource> finerLevelsOf(vtkDataArray* numbers)
 {
   for (const Remembered& one : allRemembered())
   {
-    if (one.numbers && one.time == one.numbers->GetMTime() && numbers->HasStandardMemoryLayout() &&
-      numbers->GetDataType() == one.numbers->GetDataType() &&
+    if (one.numbers && one.source.time == one.numbers->GetMTime() &&
+      numbers->HasStandardMemoryLayout() && numbers->GetDataType() == one.numbers->GetDataType() &&
       numbers->GetNumberOfValues() == one.numbers->GetNumberOfValues() &&
       numbers->GetVoidPointer(0) == one.numbers->GetVoidPointer(0))
     {
@@ -90,6 +99,13 @@ FinerLevels::FinerLevels(const LevelSource& source)
     this->Levels.push_back(std::make_unique<PlacedVolume>(std::move(file)));
     this->Levels.back()->setPlacement(source.worldFromFile);
     this->Levels.back()->readHeader(source.fileName);
+    const PlacedVolume& read = *this->Levels.back();
+    if (read.scalarType() != source.type || read.header().components != source.components)
+    {
+      throw Problem("Level " + std::to_string(level) + " of " + source.fileName +
+        " has other numbers than the level that is drawn, of another type or with other "
+        "components; no finer voxels are drawn. Set Level of the reader to read it");
+    }
     this->Grids.push_back(this->Levels.back()->geometry().grid);
   }
 }

@@ -30,15 +30,19 @@ struct LevelSource
   int channel = -1;
   std::size_t volume = 0; ///< of the times
   glm::dmat4 worldFromFile{ 1.0 };
+  Grid grid;             ///< of the array
+  int type = 0;          ///< of its numbers, of vtkType.h
+  int components = 0;    ///< for each voxel
+  vtkMTimeType time = 0; ///< of the array when it was read
 
   VTKBRAINSHIFTFORMATS_EXPORT bool operator==(const LevelSource& other) const;
 };
 
 /**
- * Remembers what an array was read from, for as long as it lives and is not modified: the source,
- * of which the header says the level.
+ * Remembers what the scalars of an image were read from, for as long as they live and are not
+ * modified. The level is that of the header; the image has the rest.
  */
-void rememberLevels(vtkDataArray* numbers, LevelSource source, const VolumeHeader& header);
+void rememberLevels(vtkImageData* image, LevelSource source, const VolumeHeader& header);
 
 /**
  * What an array, or one that shares its memory, was read from, if there are finer levels. None for
@@ -51,7 +55,10 @@ VTKBRAINSHIFTFORMATS_EXPORT std::optional<LevelSource> finerLevelsOf(vtkDataArra
 class VTKBRAINSHIFTFORMATS_EXPORT FinerLevels
 {
 public:
-  /** Reads the headers of all levels that are finer, or throws a sentence. */
+  /**
+   * Reads the headers of all levels that are finer, or throws a sentence: also if their numbers are
+   * of another type than those of the array.
+   */
   explicit FinerLevels(const LevelSource& source);
   ~FinerLevels();
 

@@ -490,7 +490,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   attachMeaning(shown, this->Stored->header());
   attachFacts(this->Stored->header(), shown);
   brainshift::SharedArrays().share(shown->GetPointData());
-  brainshift::rememberLevels(shown->GetPointData()->GetScalars(),
+  brainshift::rememberLevels(shown,
     { this->Taken, this->FileName, this->Choice, 0, this->Channel, volume,
       affineOfRows(this->WorldFromFile) },
     this->Stored->header());

@@ -2,6 +2,7 @@
 #include "Representations/Bricks/BrickLoader.h"
 
 #include "Common/Guard.h"
+#include "Common/Parallel.h"
 #include "Representations/Bricks/PageTable.h"
 #include "Representations/Skipping/RestPresence.h"
 
@@ -215,6 +216,7 @@ void BrickLoader::open()
 
 void BrickLoader::run()
 {
+  keepLoopsOnThisThread();
   this->open();
   BrickOrder order;
   int brick = 0;

@@ -18,10 +18,13 @@ namespace brainshift
 namespace
 {
 constexpr double BytesInMiB = 1048576.0;
+constexpr std::int64_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
 constexpr double UsualLimitMiB = 1024.0; // where the user sets none
 constexpr int LeastSlots = 8;
 constexpr std::size_t MostUploads = 256;  // for one picture, some 10 MB
 constexpr double MostBricks = 16777216.0; // rays write their numbers as floats
+constexpr double StaysFiner = 1.3;        // times a pixel
+constexpr double MoreRoom = 1.5;          // times the former limit
 constexpr int QuietPictures = 2; // rays ask for one brick each, so two pictures are compared
 
 // mm, world. How wide a pixel is where the volume's box is nearest to the eye.
@@ -77,10 +80,10 @@ std::optional<FineGrid> placed(const DrawnValues& values, const Grid& grid, std:
 }
 }
 
-std::optional<FineGrid> levelFor(
-  const DrawnValues& values, const std::vector<Grid>& finer, const BrickView& view)
+std::optional<FineGrid> levelFor(const DrawnValues& values, const std::vector<Grid>& finer,
+  const BrickView& view, double pixelsWide)
 {
-  const double pixelMm = pixelAt(values, view);
+  const double pixelMm = pixelsWide * pixelAt(values, view);
   const auto widest = [&](const glm::dvec3& voxels) {
     double mm = 0.0;
     for (int axis = 0; axis < 3; ++axis)
@@ -113,19 +116,41 @@ bool StreamedBricks::accepts(const TissueRequest& tissue) const
     !CategoryScalars::areWanted(tissue.property);
 }
 
+// Whether the room for bricks suits the limit. What else is drawn takes more or less of it from
+// picture to picture; bricks that fit are not read again for that.
+bool StreamedBricks::hasRoomFor(const BrickView& view) const
+{
+  if (view.limitMiB == this->LimitMiB)
+  {
+    return true;
+  }
+  const glm::dvec3 slots(this->Table.slots());
+  const double held = slots.x * slots.y * slots.z * SlotVoxels * this->Bytes / BytesInMiB;
+  return view.limitMiB > 0.0 && this->LimitMiB > 0.0 && held > 0.0 && held <= view.limitMiB &&
+    view.limitMiB < MoreRoom * this->LimitMiB;
+}
+
 void StreamedBricks::chooseLevel(const BrickView& view, const TissueRequest& tissue)
 {
   const std::vector<Grid> grids = this->Loader ? this->Loader->grids() : std::vector<Grid>();
   this->Accepted = this->Loader && this->accepts(tissue);
   this->KnewGrids = !grids.empty();
-  const std::optional<FineGrid> level =
-    this->Accepted ? levelFor(tissue.values, grids, view) : std::nullopt;
+  std::optional<FineGrid> level;
+  if (this->Accepted)
+  {
+    // A camera that moves a little at the border between two levels changes nothing.
+    const std::optional<FineGrid> finer = levelFor(tissue.values, grids, view, 1.0 / StaysFiner);
+    level = finer == this->Level ? finer : levelFor(tissue.values, grids, view);
+  }
   const BrickOrder order{ level.value_or(FineGrid()), tissue.values.layout.dimensions,
     drawnComponents(tissue.property, tissue.values.scalars).scalar };
-  const bool isSame =
-    level == this->Level && order == this->Order && view.limitMiB == this->LimitMiB;
+  const bool isSame = level == this->Level && order == this->Order && this->hasRoomFor(view);
   if (!isSame)
   {
+    if (this->Loader)
+    {
+      this->Loader->order(order, {}); // bricks of the former order must not come
+    }
     this->Table.reset(glm::ivec3(0), glm::ivec3(0));
     this->Pages = nullptr;
     this->Atlas = nullptr;
@@ -147,7 +172,11 @@ void StreamedBricks::forgetBricks()
 
 void StreamedBricks::plan(GpuTask& gpu, const BrickView& view, TissueRequest& tissue)
 {
-  const std::optional<LevelSource> source = finerLevelsOf(tissue.values.scalars);
+  std::optional<LevelSource> source = finerLevelsOf(tissue.values.scalars);
+  if (source && !(source->grid == tissue.values.grid)) // a part, or placed anew by a filter
+  {
+    source = std::nullopt;
+  }
   if (!(source == this->Source))
   {
     this->release(gpu.window);
@@ -158,6 +187,7 @@ void StreamedBricks::plan(GpuTask& gpu, const BrickView& view, TissueRequest& ti
   {
     gpu.remarks.push_back(this->Loader->problem());
   }
+  this->Asks = view.asks;
   this->chooseLevel(view, tissue);
   this->Bytes = ScalarTexture::bytesOf(tissue.values.scalars, this->Order.component);
   if (!this->Level || (!this->Atlas && !this->allocate(gpu)))
@@ -179,7 +209,6 @@ void StreamedBricks::plan(GpuTask& gpu, const BrickView& view, TissueRequest& ti
 
 namespace
 {
-constexpr std::int64_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
 
 // So many slots or some less, in a block as nearly a cube as is simple.
 glm::ivec3 slotsASide(std::int64_t slots, int most)
@@ -352,8 +381,13 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
 
 void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
 {
-  if (!this->Level || !this->Atlas || wishes.empty())
+  if (!this->Level || !this->Atlas)
   {
+    return;
+  }
+  if (wishes.empty()) // nothing was cast: the picture before is shown, and asks for nothing more
+  {
+    this->Quiet += this->Wanted.empty() ? 1 : 0;
     return;
   }
   this->Pictures += 1;
@@ -397,7 +431,7 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
 
 std::int64_t StreamedBricks::wanted() const
 {
-  if (!this->Loader || !this->Accepted || !this->Loader->problem().empty())
+  if (!this->Asks || !this->Loader || !this->Accepted || !this->Loader->problem().empty())
   {
     return 0;
   }

@@ -20,15 +20,18 @@ struct BrickView
   SceneFrame frame;
   glm::ivec2 pixels{ 0 }; ///< Of the picture, a side.
   double limitMiB = 0.0;  ///< For the bricks; 0: as much as is usual.
+  bool asks = true;       ///< Rays ask for bricks.
 };
 
 /// The level that suits a view: the coarsest whose voxels are no longer than a pixel is wide where
 /// the volume's box is nearest to the eye, or else the finest. None: the volume's own is fine
 /// enough, or no finer one has its axes.
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::optional<FineGrid> levelFor(
-  const DrawnValues& values, const std::vector<Grid>& finer, const BrickView& view);
+/// `pixelsWide`: so many pixels count as one.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::optional<FineGrid> levelFor(const DrawnValues& values,
+  const std::vector<Grid>& finer, const BrickView& view, double pixelsWide = 1.0);
 
-/// Calls for one picture: plan, upload, and finish once it is cast.
+/// Calls for one picture: plan, upload, and finish once it is cast. A picture without them, or one
+/// that failed, calls rest.
 class StreamedBricks
 {
 public:
@@ -43,6 +46,9 @@ public:
   /// and one that is, or a number below 0. Empty: nothing was cast.
   void finish(const std::vector<glm::vec2>& wishes);
 
+  /// Nothing more is wanted until the next plan.
+  void rest() { this->Asks = false; }
+
   /// Adds the present state to the counters. The GPU is not asked.
   void count(Counters& counters) const;
 
@@ -53,6 +59,7 @@ public:
 
 private:
   bool accepts(const TissueRequest& tissue) const;
+  bool hasRoomFor(const BrickView& view) const;
   void chooseLevel(const BrickView& view, const TissueRequest& tissue);
   bool allocate(GpuTask& gpu);
   void forgetBricks();
@@ -62,6 +69,7 @@ private:
 
   std::optional<LevelSource> Source;
   std::unique_ptr<BrickLoader> Loader; // null: there are no finer levels
+  bool Asks = false;                   // rays of the last picture asked
   bool Accepted = false;               // by what is drawn
   bool KnewGrids = false;              // at the last plan
   std::optional<FineGrid> Level;       // that is streamed now

@@ -88,7 +88,7 @@ bool isFloat(GLenum type)
 
 bool isInteger(GLenum type)
 {
-  return type == GL_INT || type == GL_INT_VEC3;
+  return type == GL_INT || type == GL_INT_VEC2 || type == GL_INT_VEC3;
 }
 
 // A sampler can hold only the number of a texture unit. The last one is never used.
@@ -119,6 +119,8 @@ void mark(const Uniform& uniform)
       return glUniformMatrix4fv(uniform.location, 1, GL_FALSE, nan.data());
     case GL_INT_VEC3:
       return glUniform3i(uniform.location, MarkInteger, MarkInteger, MarkInteger);
+    case GL_INT_VEC2:
+      return glUniform2i(uniform.location, MarkInteger, MarkInteger);
     default:
       return glUniform1i(uniform.location, isInteger(uniform.type) ? MarkInteger : markSampler());
   }

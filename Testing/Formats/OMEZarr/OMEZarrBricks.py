@@ -245,6 +245,25 @@ def test_bent_while_it_loads():
     again.close()
 
 
+def test_another_level_while_bricks_arrive():
+    source = reader(store(), MemoryLimit=0.05)
+    with messages():  # unknown sides
+        source.UpdatePipeline()
+    assert source.GetClientSideObject().GetOutput().GetDimensions() == (24, 28, 18)
+    pictures = []
+    for former in (8, 0):
+        shown = Shown(source)
+        for _ in range(former):
+            picture(shown.view)  # bricks of the finest level are on their way
+        away = numpy.array(shown.view.CameraPosition) - MIDDLE
+        shown.view.CameraPosition = list(MIDDLE + 6.5 * away)
+        image, state = shown.detail()
+        assert state["gpuLevel"] == 1 and state["gpuBricks"] > 4, state
+        pictures.append(image)
+        shown.close()
+    assert numpy.array_equal(*pictures)
+
+
 def test_two_views():
     source = coarse(store())
     one = Shown(source, size=120)
@@ -255,6 +274,17 @@ def test_two_views():
     one.close()
     assert other.detail()[1]["gpuLevel"] == 0
     other.close()
+
+
+def test_pictures_that_ask_for_nothing_are_complete():
+    shown = Shown(coarse(store()), size=120, CountSamples=1)
+    assert shown.detail()[1]["gpuBricks"] == 0
+    shown.display.CountSamples = 0
+    image, state = shown.detail()
+    assert state["gpuBricks"] > 8, state
+    shown.display.CountSamples = 1
+    assert numpy.array_equal(picture(shown.view), image)
+    shown.close()
 
 
 def test_what_a_filter_made_is_drawn_as_it_is():
