@@ -158,6 +158,7 @@ void StreamedBricks::plan(GpuTask& gpu, const BrickView& view, TissueRequest& ti
   {
     gpu.remarks.push_back(this->Loader->problem());
   }
+  this->Asks = view.asks;
   this->chooseLevel(view, tissue);
   this->Bytes = ScalarTexture::bytesOf(tissue.values.scalars, this->Order.component);
   if (!this->Level || (!this->Atlas && !this->allocate(gpu)))
@@ -397,7 +398,7 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
 
 std::int64_t StreamedBricks::wanted() const
 {
-  if (!this->Loader || !this->Accepted || !this->Loader->problem().empty())
+  if (!this->Asks || !this->Loader || !this->Accepted || !this->Loader->problem().empty())
   {
     return 0;
   }

@@ -20,6 +20,7 @@ struct BrickView
   SceneFrame frame;
   glm::ivec2 pixels{ 0 }; ///< Of the picture, a side.
   double limitMiB = 0.0;  ///< For the bricks; 0: as much as is usual.
+  bool asks = true;       ///< Rays ask for bricks.
 };
 
 /// The level that suits a view: the coarsest whose voxels are no longer than a pixel is wide where
@@ -28,7 +29,8 @@ struct BrickView
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::optional<FineGrid> levelFor(
   const DrawnValues& values, const std::vector<Grid>& finer, const BrickView& view);
 
-/// Calls for one picture: plan, upload, and finish once it is cast.
+/// Calls for one picture: plan, upload, and finish once it is cast. A picture without them, or one
+/// that failed, calls rest.
 class StreamedBricks
 {
 public:
@@ -42,6 +44,9 @@ public:
   /// Orders what the rays of a picture asked for: for each pixel two bricks, one that is not there
   /// and one that is, or a number below 0. Empty: nothing was cast.
   void finish(const std::vector<glm::vec2>& wishes);
+
+  /// Nothing more is wanted until the next plan.
+  void rest() { this->Asks = false; }
 
   /// Adds the present state to the counters. The GPU is not asked.
   void count(Counters& counters) const;
@@ -62,6 +67,7 @@ private:
 
   std::optional<LevelSource> Source;
   std::unique_ptr<BrickLoader> Loader; // null: there are no finer levels
+  bool Asks = false;                   // rays of the last picture asked
   bool Accepted = false;               // by what is drawn
   bool KnewGrids = false;              // at the last plan
   std::optional<FineGrid> Level;       // that is streamed now

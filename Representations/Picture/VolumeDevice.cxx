@@ -69,7 +69,8 @@ bool VolumeDevice::draw(
       this->drawTissue(gpu, drawn, deformation, possible);
   };
   const MemoryNeed need = needOf(request, deformation);
-  return this->Level.draw(gpu, request.tissue, need, request.memoryLimitMiB, [&] {
+  this->Bricks.rest();
+  const bool isDrawn = this->Level.draw(gpu, request.tissue, need, request.memoryLimitMiB, [&] {
     const bool done = draw();
     if (takeOutOfMemory())
     {
@@ -79,6 +80,11 @@ bool VolumeDevice::draw(
     }
     return done;
   });
+  if (!isDrawn)
+  {
+    this->Bricks.rest();
+  }
+  return isDrawn;
 }
 
 // Memory is requested before it is taken: some drivers end the program when there is none. If there
@@ -162,7 +168,8 @@ TissueRequest VolumeDevice::planBricks(
   GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, const MemoryNeed& need)
 {
   TissueRequest tissue = request.tissue;
-  BrickView view{ frameOf(drawn, tissue.values), request.wish.size, 0.0 };
+  BrickView view{ frameOf(drawn, tissue.values), request.wish.size, 0.0,
+    !request.wish.countSamples };
   if (request.memoryLimitMiB > 0.0)
   {
     constexpr double bytesInMiB = 1048576.0;

@@ -257,6 +257,17 @@ def test_two_views():
     other.close()
 
 
+def test_pictures_that_ask_for_nothing_are_complete():
+    shown = Shown(coarse(store()), size=120, CountSamples=1)
+    assert shown.detail()[1]["gpuBricks"] == 0
+    shown.display.CountSamples = 0
+    image, state = shown.detail()
+    assert state["gpuBricks"] > 8, state
+    shown.display.CountSamples = 1
+    assert numpy.array_equal(picture(shown.view), image)
+    shown.close()
+
+
 def test_what_a_filter_made_is_drawn_as_it_is():
     """Its numbers are not those of the file."""
     smooth = simple.Calculator(Input=coarse(store()), Function="2*Intensity",
