@@ -17,8 +17,8 @@ namespace brainshift
 {
 namespace
 {
-constexpr std::int64_t MostBlockBytes = 64 << 20; // of voxels that neighbours may need, too
-constexpr std::size_t MostWaiting = 64;           // bricks that no picture has taken yet
+constexpr std::int64_t MostBlockBytes = 192 << 20; // of voxels that neighbours may need, too
+constexpr std::size_t MostWaiting = 512; // bricks that no picture has taken yet, some 40 MB
 
 // First and last rest brick along an axis that each voxel of a slot can reach.
 struct Reach

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace brainshift
@@ -21,10 +20,11 @@ constexpr double BytesInMiB = 1048576.0;
 constexpr std::int64_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
 constexpr double UsualLimitMiB = 1024.0; // where the user sets none
 constexpr int LeastSlots = 8;
-constexpr std::size_t MostUploads = 256;  // for one picture, some 10 MB
-constexpr double MostBricks = 16777216.0; // rays write their numbers as floats
-constexpr double StaysFiner = 1.3;        // times a pixel
-constexpr double MoreRoom = 1.5;          // times the former limit
+constexpr std::size_t MostUploads = 512;   // for one picture, some 40 MB
+constexpr std::size_t BricksInBatch = 512; // read side by side, whichever is more urgent
+constexpr double MostBricks = 16777216.0;  // rays write their numbers as floats
+constexpr double StaysFiner = 1.3;         // times a pixel
+constexpr double MoreRoom = 1.5;           // times the former limit
 constexpr int QuietPictures = 2; // rays ask for one brick each, so two pictures are compared
 
 // mm, world. How wide a pixel is where the volume's box is nearest to the eye.
@@ -259,7 +259,7 @@ bool StreamedBricks::allocate(GpuTask& gpu)
   const double usualMiB =
     freeMiB == UnknownMemory ? UsualLimitMiB : std::min(UsualLimitMiB, 0.5 * freeMiB);
   const double allowed = this->LimitMiB > 0.0 ? this->LimitMiB : usualMiB;
-  const glm::ivec3 bricks = this->Level->bricks();
+  const glm::ivec3 bricks = this->Order.fine.bricks();
   const std::int64_t all = static_cast<std::int64_t>(bricks.x) * bricks.y * bricks.z;
   const int longest = vtkTextureObject::GetMaximumTextureSize3D(gpu.window) / SlotSideVoxels;
   std::int64_t slots = std::min<std::int64_t>(
@@ -407,7 +407,17 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
   {
     pixels.emplace(brick, 0);
   }
-  std::vector<std::pair<int, int>> sorted; // most pixels first
+  this->Wanted = this->inOrder(pixels);
+  this->Loader->order(this->Order, this->Wanted);
+  this->Quiet = this->Wanted.empty() ? this->Quiet + 1 : 0;
+  this->Changes += this->Quiet == 1 ? 1 : 0; // a picture with other wishes
+}
+
+// Those that can come: the bricks of most pixels first, in batches of neighbours, which share
+// chunks of the file.
+std::vector<int> StreamedBricks::inOrder(const std::map<int, int>& pixels)
+{
+  std::vector<std::pair<int, int>> sorted;
   for (const auto& [brick, count] : pixels)
   {
     if (this->Failed.count(brick) == 0 && this->Table.slotOf(brick) == PageTable::None)
@@ -419,14 +429,19 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
   const std::size_t room = this->Table.room(this->View);
   this->Full = sorted.size() > room;
   sorted.resize(std::min(sorted.size(), room));
-  this->Wanted.clear();
+  std::vector<int> bricks;
+  bricks.reserve(sorted.size());
   for (const auto& [count, brick] : sorted)
   {
-    this->Wanted.push_back(brick);
+    bricks.push_back(brick);
   }
-  this->Loader->order(this->Order, this->Wanted);
-  this->Quiet = this->Wanted.empty() ? this->Quiet + 1 : 0;
-  this->Changes += this->Quiet == 1 ? 1 : 0; // a picture with other wishes
+  for (std::size_t first = 0; first < bricks.size(); first += BricksInBatch)
+  {
+    const std::size_t end = std::min(first + BricksInBatch, bricks.size());
+    std::sort(bricks.begin() + static_cast<std::ptrdiff_t>(first),
+      bricks.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+  return bricks;
 }
 
 std::int64_t StreamedBricks::wanted() const

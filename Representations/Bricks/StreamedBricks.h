@@ -10,6 +10,7 @@
 #include "Representations/Scene/SceneFrame.h"
 #include "Representations/Tissue/TissueTextures.h"
 
+#include <map>
 #include <set>
 
 namespace brainshift
@@ -65,6 +66,7 @@ private:
   void forgetBricks();
   void noteView(const GpuTask& gpu, const BrickView& view, const TissueRequest& tissue);
   void place(const ReadBrick& read, TissueTextures& textures);
+  std::vector<int> inOrder(const std::map<int, int>& pixels);
   std::int64_t wanted() const;
 
   std::optional<LevelSource> Source;
