@@ -92,9 +92,9 @@ double freeHostMemory()
 std::string hostMemoryProblem(const std::string& what, double bytes)
 {
   const double left = bytes <= AlwaysThere ? Unlimited : freeHostMemory();
-  return bytes <= left
-    ? std::string()
-    : what + " needs " + gigabytes(bytes) + " of memory; " + gigabytes(left) + " are left";
+  return bytes <= left ? std::string()
+                       : what + " needs " + gigabytes(bytes) + " of memory, and " +
+      gigabytes(left) + " are left; close other data or programs";
 }
 
 void requireHostMemory(const std::string& what, double bytes)

@@ -51,6 +51,12 @@ DICOMTag tagAt(const unsigned char* bytes, const Form& form)
     storedNumber<std::uint16_t>(bytes + 2, form.isBig);
 }
 
+// The sequence of a mosaic's slices by United Imaging, in whatever block.
+bool isUnitedSlices(DICOMTag tag)
+{
+  return tag >> 16 == 0x0065 && (tag & 0xffff) > 0x1000 && (tag & 0xff) == 0x51;
+}
+
 // The attributes by which Siemens and United Imaging tell mosaics, in whatever block, and the names
 // of blocks.
 bool mayTellMosaic(DICOMTag tag)
@@ -62,7 +68,7 @@ bool mayTellMosaic(DICOMTag tag)
   return (group == 0x0019 && (isCreator || inBlock == 0x0a)) ||
     (group == 0x0029 && (isCreator || inBlock == 0x10)) ||
     (group == 0x0051 && (isCreator || inBlock == 0x16)) ||
-    (group == 0x0065 && (isCreator || inBlock == 0x51));
+    (group == 0x0065 && (isCreator || inBlock == 0x50 || isUnitedSlices(tag)));
 }
 
 class Parser
@@ -164,7 +170,8 @@ private:
     {
       Form inside = form;
       inside.depth = form.depth + 1;
-      inside.isExplicit = form.isExplicit && std::strncmp(head.vr, "UN", 2) != 0;
+      inside.isExplicit = form.isExplicit && !isUnknown(head);
+      inside.isBig = form.isBig && !isUnknown(head);
       const std::uint64_t last = head.length == Undefined ? end : offset + head.length;
       if (form.depth >= DeepestSequence ||
         !this->readItems(offset, last, inside, head.length, element))
@@ -203,10 +210,19 @@ private:
     {
       return true;
     }
+    // UN of a known length is bytes or items (PS3.5, 6.2.2); the items of a mosaic count.
+    const bool mayHaveItems =
+      !form.isExplicit || (isUnknown(head) && form.depth == 0 && isUnitedSlices(head.tag));
     const unsigned char* first =
-      form.isExplicit || head.length < 8 ? nullptr : this->Bytes.at(offset, 4);
-    return first && tagAt(first, form) == Item;
+      mayHaveItems && head.length >= 8 ? this->Bytes.at(offset, 4) : nullptr;
+    Form inside = form;
+    inside.isBig = form.isBig && !isUnknown(head);
+    return first && tagAt(first, inside) == Item;
   }
+
+  // Programs that do not know an attribute write it so, with what is in it as implicit, little
+  // endian.
+  static bool isUnknown(const Head& head) { return std::strncmp(head.vr, "UN", 2) == 0; }
 
   bool readItems(std::uint64_t& offset, std::uint64_t end, const Form& form, std::uint32_t length,
     DICOMElement& element)

@@ -92,43 +92,6 @@ bool readPosition(const DICOMDataSet& set, DICOMFrame& frame)
   return position.size() == 3;
 }
 
-bool readOrientation(const DICOMDataSet& set, DICOMFrame& frame, Notes& notes)
-{
-  const std::vector<double> cosines =
-    requiredDecimals(set, { 0x00200037, "ImageOrientationPatient" }, 6);
-  if (cosines.size() != 6)
-  {
-    return false;
-  }
-  const glm::dvec3 alongRow(cosines[0], cosines[1], cosines[2]);
-  const glm::dvec3 alongColumn(cosines[3], cosines[4], cosines[5]);
-  const double lengths[] = { glm::length(alongRow), glm::length(alongColumn) };
-  if (!(lengths[0] > 0.5 && lengths[1] > 0.5))
-  {
-    addNote(notes, "has an ImageOrientationPatient without directions, which does not count");
-    return false;
-  }
-  if (std::abs(lengths[0] - 1.0) > LargestLengthError ||
-    std::abs(lengths[1] - 1.0) > LargestLengthError)
-  {
-    addNote(notes,
-      joined("has an ImageOrientationPatient whose directions are ", lengths[0], " and ",
-        lengths[1], " long; they count as 1"));
-  }
-  frame.alongRow = alongRow / lengths[0];
-  frame.alongColumn = alongColumn / lengths[1];
-  const double cosine = glm::dot(frame.alongRow, frame.alongColumn);
-  if (!(std::abs(cosine) < LargestCosineOfAxes))
-  {
-    addNote(notes,
-      joined("has an ImageOrientationPatient whose directions are not perpendicular "
-             "(cosine ",
-        cosine, "), which does not count"));
-    return false;
-  }
-  return true;
-}
-
 // Whether an image says where it is.
 bool readPlane(const DICOMDataSet& set, DICOMFrame& frame, Notes& notes)
 {
@@ -586,6 +549,43 @@ void addNote(std::vector<std::string>& notes, const std::string& note)
 bool describesFrames(const DICOMDataSet& set)
 {
   return !itemsOf(set, FrameGroups).empty();
+}
+
+bool readOrientation(const DICOMDataSet& set, DICOMFrame& frame, Notes& notes)
+{
+  const std::vector<double> cosines =
+    requiredDecimals(set, { 0x00200037, "ImageOrientationPatient" }, 6);
+  if (cosines.size() != 6)
+  {
+    return false;
+  }
+  const glm::dvec3 alongRow(cosines[0], cosines[1], cosines[2]);
+  const glm::dvec3 alongColumn(cosines[3], cosines[4], cosines[5]);
+  const double lengths[] = { glm::length(alongRow), glm::length(alongColumn) };
+  if (!(lengths[0] > 0.5 && lengths[1] > 0.5))
+  {
+    addNote(notes, "has an ImageOrientationPatient without directions, which does not count");
+    return false;
+  }
+  if (std::abs(lengths[0] - 1.0) > LargestLengthError ||
+    std::abs(lengths[1] - 1.0) > LargestLengthError)
+  {
+    addNote(notes,
+      joined("has an ImageOrientationPatient whose directions are ", lengths[0], " and ",
+        lengths[1], " long; they count as 1"));
+  }
+  frame.alongRow = alongRow / lengths[0];
+  frame.alongColumn = alongColumn / lengths[1];
+  const double cosine = glm::dot(frame.alongRow, frame.alongColumn);
+  if (!(std::abs(cosine) < LargestCosineOfAxes))
+  {
+    addNote(notes,
+      joined("has an ImageOrientationPatient whose directions are not perpendicular "
+             "(cosine ",
+        cosine, "), which does not count"));
+    return false;
+  }
+  return true;
 }
 
 void readDICOMFrames(const DICOMDataSet& set, int count, std::vector<DICOMFrame>& frames,

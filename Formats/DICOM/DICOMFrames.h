@@ -16,6 +16,12 @@ bool describesFrames(const DICOMDataSet& set);
 void addNote(std::vector<std::string>& notes, const std::string& note);
 
 /**
+ * Reads ImageOrientationPatient into a frame. False if a set has none that counts, with a note if
+ * it has one.
+ */
+bool readOrientation(const DICOMDataSet& set, DICOMFrame& frame, std::vector<std::string>& notes);
+
+/**
  * Reads the frames of a file: one for a slice, all of a multi-frame file. Adds notes of what may be
  * wrong. Throws the end of a sentence if frames cannot be placed; then there is one frame.
  *

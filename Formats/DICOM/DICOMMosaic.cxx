@@ -34,6 +34,7 @@ struct PrivateName
 constexpr PrivateName SliceCount{ 0x0019, 0x0a, "SIEMENS MR HEADER" };
 constexpr PrivateName ImageHeader{ 0x0029, 0x10, "SIEMENS CSA HEADER" };
 constexpr PrivateName TypeText{ 0x0051, 0x16, "SIEMENS MR HEADER" };
+constexpr PrivateName UnitedCount{ 0x0065, 0x50, "Image Private Header" };
 constexpr PrivateName UnitedSlices{ 0x0065, 0x51, "Image Private Header" }; // a sequence
 
 // Its tag in a file. None: the file has no such block.
@@ -107,16 +108,15 @@ double countOfTiles(const DICOMDataSet& set)
 }
 
 // Programs that cut a mosaic into its slices leave the private attributes as they are.
-bool hasRoomFor(double slices, const DICOMDataSet& set)
+bool hasRoomFor(const glm::dvec2& tiles, const DICOMDataSet& set)
 {
-  const double tiles = std::ceil(std::sqrt(slices)); // along each side
   const double rows = wholeOf(set, Rows, 0.0);
   const double columns = wholeOf(set, Columns, 0.0);
   const std::vector<int> matrix = wholesOf(set, AcquisitionMatrix);
   const double measured =
     matrix.empty() ? 1.0 : static_cast<double>(*std::max_element(matrix.begin(), matrix.end()));
-  return std::fmod(rows, tiles) == 0.0 && std::fmod(columns, tiles) == 0.0 &&
-    std::max(rows, columns) >= tiles * measured;
+  return std::fmod(rows, tiles.y) == 0.0 && std::fmod(columns, tiles.x) == 0.0 &&
+    (rows >= tiles.y * measured || columns >= tiles.x * measured);
 }
 
 // The end of a sentence if an image of Siemens is so much larger than what was measured that it may
@@ -146,7 +146,8 @@ bool isMosaic(const DICOMDataSet& set, double slices)
   const auto isNamed = [&set](DICOMTag tag) {
     return plainText(textOf(set, tag)).find("MOSAIC") != std::string::npos;
   };
-  return isNamed(ImageType) || (slices > 1.0 && hasRoomFor(slices, set)) ||
+  return isNamed(ImageType) ||
+    (slices > 1.0 && hasRoomFor(glm::dvec2(std::ceil(std::sqrt(slices))), set)) ||
     (slices == 0.0 && words && isNamed(*words));
 }
 
@@ -234,6 +235,53 @@ void requireTiles(const DICOMDataSet& set, const DICOMFile& file, double slices)
   }
 }
 
+// Whether slices with positions of their own are tiles of the picture: by its ImageType, or by the
+// private number of slices. A picture that was cut out of a mosaic keeps their positions.
+bool isUnitedMosaic(
+  const DICOMDataSet& set, bool isNamed, std::size_t slices, const glm::dvec2& tiles)
+{
+  const std::optional<DICOMTag> count = tagOf(set, UnitedCount);
+  const double wanted = static_cast<double>(slices);
+  const bool isCounted = count &&
+    (decimalsOf(set, *count) == std::vector<double>{ wanted } ||
+      wholeOf(set, *count, 0.0) == wanted);
+  return isNamed || (isCounted && slices > 1 && hasRoomFor(tiles, set));
+}
+
+// Gives a tile the orientation that the picture and its slices have in common.
+void orientTile(const DICOMDataSet& set, const std::vector<DICOMDataSet>& slices, DICOMFrame& tile,
+  std::vector<std::string>& notes)
+{
+  constexpr double LeastCosine = 0.99999;
+  tile.isPlaced = readOrientation(set, tile, notes);
+  for (std::size_t i = 0; i < slices.size(); ++i)
+  {
+    DICOMFrame own;
+    if (!readOrientation(slices[i], own, notes))
+    {
+      continue;
+    }
+    if (!tile.isPlaced)
+    {
+      tile.alongRow = own.alongRow;
+      tile.alongColumn = own.alongColumn;
+      tile.isPlaced = true;
+    }
+    if (!(glm::dot(own.alongRow, tile.alongRow) > LeastCosine &&
+          glm::dot(own.alongColumn, tile.alongColumn) > LeastCosine))
+    {
+      throw Problem(joined("is a mosaic whose slice ", i + 1,
+        " has another ImageOrientationPatient in (0065,xx51) than the picture or the slices before "
+        "it; they must be the same",
+        WayOut));
+    }
+  }
+  if (!tile.isPlaced)
+  {
+    throw Problem(std::string("is a mosaic without ImageOrientationPatient") + WayOut);
+  }
+}
+
 // Divides a mosaic of United Imaging, whose slices have a sequence of their own, with a
 // position each. False if the file is none.
 bool cutUnitedMosaic(const DICOMDataSet& set, DICOMFile& file)
@@ -254,6 +302,10 @@ bool cutUnitedMosaic(const DICOMDataSet& set, DICOMFile& file)
   const int count = static_cast<int>(slices.size());
   const int across = static_cast<int>(std::ceil(std::sqrt(count)));
   const glm::ivec2 tiles(across, (count + across - 1) / across);
+  if (!isUnitedMosaic(set, isNamed, slices.size(), tiles))
+  {
+    return false;
+  }
   if (file.frames.size() != 1 || file.columns % tiles.x != 0 || file.rows % tiles.y != 0 ||
     file.pixels.colors != DICOMColors::None)
   {
@@ -263,7 +315,7 @@ bool cutUnitedMosaic(const DICOMDataSet& set, DICOMFile& file)
   }
   DICOMFrame tile = file.frames.front();
   tile.locationMm.reset();
-  tile.isPlaced = true;
+  orientTile(set, slices, tile, file.notes);
   file.tiles = tiles;
   file.columns /= tiles.x;
   file.rows /= tiles.y;

@@ -11,8 +11,9 @@
 namespace brainshift
 {
 /**
- * A reason with a way out at its end, unless it has one: what stands behind a semicolon or a full
- * stop. Whoever stopped the work needs none.
+ * A reason with a way out at its end, unless it has one: what is behind a semicolon or a full stop.
+ * A limit that a number of the file must keep, as in "; it must be above 0 mm", counts as one. Work
+ * that was stopped needs none.
  */
 std::string withWayOut(const std::string& reason, const std::string& wayOut);
 

@@ -282,10 +282,11 @@ SplineLink splineOf(const Warp& warp, const NamedImages& images, bool& knowsSide
   const FSLFrame fixed = readFSLFrame({ "fixed", Knots }, images.fixed, knowsSides);
   const FSLFrame moving = readFSLFrame({ "moving", Knots }, images.moving, knowsSides);
   requireFixed(warp, fixed, images.fixed);
-  if (glm::any(glm::lessThan(warp.frame.dimensions, glm::ivec3(4))))
+  constexpr int FewestCoefficients = 3; // of an image that is thinner than from knot to knot
+  if (glm::any(glm::lessThan(warp.frame.dimensions, glm::ivec3(FewestCoefficients))))
   {
     throw Problem("has " + sizeText(glm::dvec3(warp.frame.dimensions)) +
-      " coefficients; cubic B-splines have 4 or more along each axis");
+      " coefficients; FNIRT writes 3 or more along each axis");
   }
   glm::dmat4 fixedFromMoving(1.0); // mm of FSL
   for (int row = 0; row < 3 && warp.placement.sformCode > 0; ++row)
@@ -304,7 +305,7 @@ SplineLink splineOf(const Warp& warp, const NamedImages& images, bool& knowsSide
   }
   SplineLink link;
   link.grid = gridOf(warp.frame.dimensions, fixed.worldFromVoxel * fixedVoxelFromKnot);
-  link.fades = true; // the last knot may lie before the last voxel
+  link.fades = true; // behind the last coefficients FNIRT counts 0
   const glm::dmat4 base =
     moving.worldFromFSL * glm::inverse(fixedFromMoving) * glm::inverse(fixed.worldFromFSL);
   link.base = { glm::dmat3(base), glm::dvec3(base[3]) };

@@ -288,13 +288,14 @@ void vtkVolumeFileReader::takeFormat()
     this->Format.empty() ? formatOf(fileName, this->Format) : formatNamed(this->Format);
   if (!format && !this->Format.empty())
   {
-    throw brainshift::Problem(
-      "Format is '" + this->Format + "'; it must be one of " + formatNames());
+    throw brainshift::Problem("Format is '" + this->Format + "'; it must be one of " +
+      formatNames() + ", or empty to take that of the file");
   }
   if (!format)
   {
-    throw brainshift::Problem(
-      "File " + fileName + " is no volume of a format that BrainShift reads: " + formatNames());
+    throw brainshift::Problem("File " + fileName +
+      " is no volume of a format that BrainShift reads: " + formatNames() +
+      "; convert it to .nii.gz or .nrrd in a program that opens it");
   }
   if (format != this->Taken)
   {

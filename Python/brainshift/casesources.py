@@ -24,7 +24,8 @@ FILE_PROPERTIES = ("FileName", "FileNames")
 #: By path: until when it is not looked at again, and what was found. See `_written`.
 _seen = {}
 
-#: By the number of a source that reads files: when it read them, and when they were written then.
+#: By the number of a source that reads files: when it was set or reloaded last, which makes it read
+#: headers, and when they were written then.
 _read = {}
 
 #: Roles that points have. All others are volumes.
@@ -183,17 +184,21 @@ def _reader_and_paths(source):
 
 def doubt_about_files(source):
     """A sentence without names, which reports show, if the files of a source were written, or went
-    away, after it read them; else empty, as for files on a server. The first call takes them as
-    they are."""
+    away, after it read their headers; else empty, as for files on a server. The first call takes
+    them as they are. Another time step reads more of the files, and no header."""
     reader, paths = _reader_and_paths(source)
     algorithm = reader.GetClientSideObject() if reader else None
     if algorithm is None:
         return ""
-    when = algorithm.GetOutputDataObject(0).GetUpdateTime()
+    when = algorithm.GetMTime()
     written = _written_by(reader, paths)
     former, then = _read.setdefault(reader.SMProxy.GetGlobalID(), (when, written))
-    if former != when:  # it read them again
+    if former != when:  # it reads them again
         _read[reader.SMProxy.GetGlobalID()], then = (when, written), written
+    if _reads_folders(reader):  # files that are new were not read
+        names = [{name for name, *_ in before} for before in then]
+        written = [[each for each in now if each[0] in known]
+                   for now, known in zip(written, names)]
     if written == then:
         return ""
     if any(before and not now for now, before in zip(written, then)):
@@ -215,9 +220,14 @@ def digest_of(state):
 def _written_by(source, paths):
     """When the files at paths that a source reads were written: for each path what `_written`
     returns."""
-    is_dicom = source.SMProxy.GetXMLName().startswith("DICOM")  # which reads a file's whole folder
+    is_dicom = _reads_folders(source)
     return [_written(os.path.dirname(path) if is_dicom and os.path.isfile(path) else path)
             for path in paths]
+
+
+def _reads_folders(source):
+    """Whether a source reads the whole folder of a file."""
+    return source.SMProxy.GetXMLName().startswith("DICOM")
 
 
 def _written(path):

@@ -70,7 +70,8 @@ def _require_room(folder, needed):
         there = os.path.dirname(there)
     free = max(shutil.disk_usage(there).free - SPARE, 0)
     if needed > free and os.access(there, os.W_OK):
-        raise SceneProblem(f"unpacks to {needed} bytes, and {free} are free in {folder}")
+        raise SceneProblem(f"unpacks to {needed} bytes, and {free} are free in {folder}; free some "
+                           "room or name a folder")
 
 
 def _named_folder(path, folder, needed):

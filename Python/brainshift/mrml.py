@@ -15,7 +15,7 @@ _ESCAPED = (("%22", '"'), ("%3C", "<"), ("%3E", ">"), ("%27", "'"), ("%20", " ")
 _OLD_ROLES = {"transform": "transformNodeRef", "storage": "storageNodeRef",
               "display": "displayNodeRef"}
 
-#: The group of ParaView's proxies with the points that a scene had below nothing.
+#: The group of ParaView's proxies with points that a scene has at deformed positions.
 WORLD_POINTS = "brainshift_world_points"
 
 

@@ -210,7 +210,7 @@ class _Opening:
         if not found.all():
             self.found.notes.append(
                 f"{node.words} is below '{above}', which has no finite number at {(~found).sum()} "
-                f"of {found.size} points of the volume; the tissue there stays.")
+                f"of {found.size} points of the volume; the tissue there is not moved.")
 
     # Points and surfaces -------------------------------------------------------------------------
 
@@ -330,8 +330,8 @@ class _Opening:
         self.found.notes.extend(self.transforms.notes)
 
     def mark_moved(self):
-        """Points below nothing, beside a volume that is bent, are where tissue is now: marked, so
-        that `save_scene` puts them below nothing again. States keep the mark."""
+        """Points below nothing that bends, beside a volume that is bent, are where tissue is now:
+        marked, so that `save_scene` puts them below nothing. States keep the mark."""
         from paraview import servermanager
 
         kinds = {source.SMProxy.GetXMLName() for _, source in self.shown}
@@ -339,7 +339,8 @@ class _Opening:
             return
         manager = servermanager.ProxyManager().SMProxyManager
         for node, source in self.shown:
-            if node.kind in POINTS + FIGURES and not merged(self.transforms.chain(node)):
+            if node.kind in POINTS + FIGURES and all(
+                    link.matrix is not None for link in self.transforms.chain(node)):
                 manager.RegisterProxy(WORLD_POINTS, node.name, source.SMProxy)
 
 

@@ -323,7 +323,7 @@ def _write_segments(source, path):
 
 def _is_moved(points):
     """Whether points are deformed already: by Deform Geometry, unless that led them back, by a
-    transform of a scene that bends, or below nothing in a scene whose volume is bent."""
+    transform of a scene that bends, or below none that does in a scene whose volume is bent."""
     from paraview import servermanager
 
     manager = servermanager.ProxyManager().SMProxyManager
@@ -453,8 +453,8 @@ def save_scene(path, volumes, points=(), segmentations=(), hardened=True, spacin
       Segmentation below the same transform.
     - `points`: landmarks at rest: a source or the path of a file, or a list. They are written as
       `.mrk.json`, below the transform of the first Free-Form Deformation. Sources behind a Deform
-      Geometry, and those that `open_scene` moved by a transform that bends or found below nothing
-      beside a volume that is bent, count as `moved_points`.
+      Geometry, and those that `open_scene` moved by a transform that bends or found below none that
+      does, beside a volume that is bent, count as `moved_points`.
     - `segmentations`: a source of labels at rest, or a list. They are put below the same transform,
       with the names and colours of their segments.
     - `hardened`: whether a copy with the deformation baked into its voxels goes beside each bent
@@ -482,7 +482,7 @@ def save_scene(path, volumes, points=(), segmentations=(), hardened=True, spacin
     if ending.lower() == ".mrml":
         _save_beside(path, given, (hardened, spacing))
         return
-    name = os.path.basename(base)
+    name = _FORBIDDEN.sub("_", os.path.basename(base))  # open_scene refuses a colon
     beside = os.path.dirname(os.path.abspath(path))
     os.makedirs(beside, exist_ok=True)
     around = tempfile.mkdtemp(prefix="brainshift-scene-", dir=beside)

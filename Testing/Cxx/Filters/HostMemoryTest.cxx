@@ -70,7 +70,8 @@ TEST(HostMemory, KnowsTheLimitOfTheProcess)
   EXPECT_LE(freeHostMemory(), 1.0 * GB);
   EXPECT_GT(freeHostMemory(), 0.5 * GB);
   EXPECT_EQ(hostMemoryProblem("It", 0.3 * GB), "");
-  expectSays(hostMemoryProblem("It", 5.0 * GB), { "It needs 5 GB of memory; ", " GB are left" });
+  expectSays(
+    hostMemoryProblem("It", 5.0 * GB), { "It needs 5 GB of memory, and ", " GB are left; close" });
 }
 
 TEST(HostMemory, ABakeAsksForItsField)
@@ -82,7 +83,8 @@ TEST(HostMemory, ABakeAsksForItsField)
   vtkNew<vtkBakeDeformation> bake;
   bake->SetInputConnection(deform->GetOutputPort());
   expectSays(saidWithin2GB(bake),
-    { "The offset field of 2177 x 2177 x 2177 nodes needs 255 GB of memory; ", " GB are left." });
+    { "The offset field of 2177 x 2177 x 2177 nodes needs 255 GB of memory, and ",
+      " GB are left; close" });
   EXPECT_EQ(bake->GetOutput()->GetNumberOfPoints(), 0);
   deform->SetLatticeDimensions(9, 9, 9);
   deform->SetSamples(4);
@@ -103,7 +105,7 @@ TEST(HostMemory, ABakeOfAFarMoveIsRefused)
     return saidWithin2GB(bake);
   };
   expectSays(movedBy(glm::dvec3(1e4)),
-    { "The offset field of ", " nodes needs ", " GB of memory; ", " GB are left." });
+    { "The offset field of ", " nodes needs ", " GB of memory, and ", " GB are left; close" });
   EXPECT_EQ(bake->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(movedBy(glm::dvec3(5.0)), "");
   EXPECT_EQ(bake->GetOutput()->GetNumberOfPoints(), 33 * 33 * 33);
@@ -118,7 +120,8 @@ TEST(HostMemory, ADeformationFieldAsksForItsPoints)
   field->SetSampleGrid(vtkDeformationField::GivenDimensions);
   field->SetDimensions(4096, 4096, 4096);
   expectSays(saidWithin2GB(field),
-    { "A field of 4096 x 4096 x 4096 points needs 1100 GB of memory; ", " GB are left." });
+    { "A field of 4096 x 4096 x 4096 points needs 1100 GB of memory, and ",
+      " GB are left; close" });
   EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
   field->SetDimensions(5, 6, 7);
   EXPECT_EQ(saidWithin2GB(field), "") << "what was refused is forgotten";

@@ -113,8 +113,9 @@ def united_mosaic(name, axes=OBLIQUE, slices=6, change=None):
         places = [pydicom.Dataset() for _ in range(slices)]
         for i, place in enumerate(places):
             place.ImagePositionPatient = [f"{each:.9g}" for each in first - 4.2 * i * normal]
-        image.private_block(0x0065, "Image Private Header", create=True).add_new(
-            0x51, "SQ", pydicom.Sequence(places))
+        block = image.private_block(0x0065, "Image Private Header", create=True)
+        block.add_new(0x50, "DS", str(slices))
+        block.add_new(0x51, "SQ", pydicom.Sequence(places))
         if change:
             change(image)
 
@@ -135,6 +136,53 @@ def test_tiles_of_united_imaging_lie_at_their_own_positions():
         assert_volumes(reader, affine, voxels)
 
 
+def test_their_number_tells_mosaics_of_united_imaging():
+    """Without the word VFRAME, if the picture has room for so many tiles."""
+    def unnamed(image):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "M"]
+
+    def cut(image):
+        unnamed(image)
+        image.AcquisitionMatrix = [0, 15, 15, 0]
+
+    def other(image):
+        unnamed(image)
+        image[0x0065, 0x1050].value = "5"
+
+    def uncounted(image):
+        unnamed(image)
+        del image[0x0065, 0x1050]
+
+    path, affine, voxels = united_mosaic("united-unnamed", change=unnamed)
+    reader, told = read(path)
+    assert not told, told
+    assert_volumes(reader, affine, voxels)
+    for change in (cut, other, uncounted):
+        reader, _ = read(united_mosaic("united-cut", change=change)[0])
+        assert output(reader).GetDimensions()[:2] == (3 * TILE[1], 2 * TILE[0]), change
+
+
+def test_slices_of_united_imaging_may_have_the_orientation():
+    """And may be in an attribute that another program did not know (UN)."""
+    def within(image):
+        for place in image[0x0065, 0x1051].value:
+            place.ImageOrientationPatient = image.ImageOrientationPatient
+        del image.ImageOrientationPatient
+
+    def unknown(image):
+        within(image)
+        buffer = pydicom.filebase.DicomBytesIO()
+        buffer.is_little_endian, buffer.is_implicit_VR = True, True
+        pydicom.filewriter.write_sequence(buffer, image[0x0065, 0x1051], ["iso8859"])
+        image[0x0065, 0x1051] = pydicom.DataElement(0x00651051, "UN", buffer.getvalue())
+
+    for change in (within, unknown):
+        path, affine, voxels = united_mosaic("united-within", change=change)
+        reader, told = read(path)
+        assert not told, told
+        assert_volumes(reader, affine, voxels)
+
+
 def test_mosaics_of_united_imaging_that_are_refused():
     def bare(image):
         del image[0x0065, 0x1051]
@@ -145,7 +193,15 @@ def test_mosaics_of_united_imaging_that_are_refused():
     def more(image):
         image[0x0065, 0x1051].value.extend([image[0x0065, 0x1051].value[0]] * 4)
 
+    def unturned(image):
+        del image.ImageOrientationPatient
+
+    def turned(image):
+        image[0x0065, 0x1051].value[2].ImageOrientationPatient = [1, 0, 0, 0, 1, 0]
+
     for change, words in ((bare, "without the positions of its slices"),
+                          (unturned, "without ImageOrientationPatient"),
+                          (turned, "slice 3 has another ImageOrientationPatient"),
                           (unplaced, "slice 3 has no ImagePositionPatient"),
                           (more, "4 x 3 tiles divide")):
         told = read(united_mosaic("united-refused", change=change)[0])[1]

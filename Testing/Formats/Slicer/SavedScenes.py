@@ -5,6 +5,7 @@
 import gzip
 import json
 import os
+import re
 import shutil
 import warnings
 import xml.etree.ElementTree
@@ -428,12 +429,13 @@ def test_labels_of_unknown_axes_and_of_several_times():
 def test_names_that_xml_or_windows_do_not_take():
     folder = fresh("names/of things")
     sources = [in_lps(HEAD, name) for name in ("bad\x01name", "CON", "nul.1")]
-    path = os.path.join(folder, "new", "a..mrb")  # a folder that is not there
-    brainshift.save_scene(path, sources)
-    found = brainshift.open_scene(path)
-    assert list(found.volumes) == ["bad_name", "CON", "nul.1"] and not found.notes, found
-    names = sorted(os.path.basename(name) for name in zipfile.ZipFile(path).namelist())
-    assert names == ["_CON.nrrd", "_nul.1.nrrd", "a..mrml", "bad_name.nrrd"], names
+    for base, inside in (("a.", "a."), ("10:30", "10_30")):
+        path = os.path.join(folder, "new", f"{base}.mrb")  # a folder that is not there
+        brainshift.save_scene(path, sources)
+        found = brainshift.open_scene(path)
+        assert list(found.volumes) == ["bad_name", "CON", "nul.1"] and not found.notes, found
+        names = {os.path.basename(name) for name in zipfile.ZipFile(path).namelist()}
+        assert names == {"_CON.nrrd", "_nul.1.nrrd", f"{inside}.mrml", "bad_name.nrrd"}, names
 
 
 def test_nothing_is_left_of_a_file_that_fails():
@@ -503,6 +505,20 @@ def test_points_below_nothing_beside_a_bent_volume_stay_below_nothing():
     brainshift.save_scene(again, found.volumes["T1"], hardened=False,
                           points=[found.points["World"]])
     assert parents_of(again) == {"World": None}, parents_of(again)
+    # Below a transform that only turns they are in the world, too.
+    turned = os.path.join(folder, "turned.mrml")
+    with open(first, encoding="utf-8") as file:
+        text = file.read()
+    text = re.sub('(<MarkupsFiducial [^>]*name="World"[^>]* references=")', r"\1transform:T;", text)
+    turn = slicer.Written("turn")
+    turn.linear("T", slicer.TURN)
+    with open(turned, "w", encoding="utf-8") as file:
+        file.write(text.replace("</MRML>", turn.lines[0] + "</MRML>"))
+    assert parents_of(turned)["World"] == "LinearTransform"
+    below = brainshift.open_scene(turned)
+    brainshift.save_scene(again, below.volumes["T1"], hardened=False,
+                          points=[below.points["World"], below.points["Rest"]])
+    assert set(parents_of(again).values()) == {None}, parents_of(again)
     # In a scene whose volume is not bent they are at rest.
     marks.linear("T", slicer.TURN)
     plain = brainshift.open_scene(marks.written())

@@ -434,10 +434,22 @@ def test_fnirt_field_needs_the_moving_image():
 
 
 def test_fnirt_coefficients_need_both_images():
+    for knots in ((4, 5, 30), (4, 5, 3)):  # the first has 3 coefficients along an axis
+        fnirt_coefficients(numpy.array(knots))
+    file = scratch("fnirt_coefficients.nii.gz")
+    (ref, _, _), (source, _, _) = pair(-1)
+    refuses("name the fixed image", file, moving_image=source)
+    refuses("name the moving image", file, fixed_image=ref)
+    refuses("was made for a fixed image", file, fixed_image=source, moving_image=source)
+    (right_handed, _, _), _ = pair(1)
+    refuses("right-handed", file, fixed_image=right_handed, moving_image=source)
+
+
+def fnirt_coefficients(knots):
+    """Writes coefficients as FNIRT does, and compares what is read with their sum."""
     (ref, ref_affine, sides), (source, in_affine, in_sides) = pair(-1)
     ref_frame = fsl_frame(ref_affine, sides, (4, 5, 4.5))
     in_frame = fsl_frame(in_affine, in_sides, (3, 2.5, 2))
-    knots = numpy.array((4, 5, 3))
     count = -(-(numpy.array(sides) + 1) // knots) + 2  # as FNIRT makes them
     coefficients = RANDOM.uniform(-6, 6, (*count, 3))
     ref_from_in = numpy.eye(4)
@@ -452,24 +464,18 @@ def test_fnirt_coefficients_need_both_images():
         1, *sides)
     nibabel.save(file, scratch("fnirt_coefficients.nii.gz"))
     voxels = RANDOM.uniform(0, numpy.array(sides) - 1, (300, 3))
-    voxels[:100] = numpy.array(sides) - 1 - voxels[:100] / 8  # beyond the last knots, too
+    voxels[:100] = numpy.array(sides) - 1 - voxels[:100] / 8  # behind the last coefficients, too
     points = moved(ref_affine, voxels)
     fsl = moved(numpy.linalg.inv(ref_frame), points)
     at = fsl / (4, 5, 4.5) / knots + 1  # FNIRT's first coefficient is before its first voxel
     stored = coefficients.astype("f4").transpose(2, 1, 0, 3).astype(float)
-    around = numpy.pad(stored, (*[(3, 3)] * 3, (0, 0)))  # there is nothing beyond the knots
+    around = numpy.pad(stored, (*[(3, 3)] * 3, (0, 0)))  # there are none around them
     bend = spline_sum(around, at + 3)
     right = moved(in_frame, moved(numpy.linalg.inv(ref_from_in), fsl) + bend)
     found = brainshift.read_transform(
         scratch("fnirt_coefficients.nii.gz"), fixed_image=ref, moving_image=source).map(points)
     print(f"FNIRT coefficients: {largest(found, right):.6f} mm")
     assert largest(found, right) < NEAR and numpy.linalg.norm(bend, axis=1).max() > 1.0
-    file = scratch("fnirt_coefficients.nii.gz")
-    refuses("name the fixed image", file, moving_image=source)
-    refuses("name the moving image", file, fixed_image=ref)
-    refuses("was made for a fixed image", file, fixed_image=source, moving_image=source)
-    (right_handed, _, _), _ = pair(1)
-    refuses("right-handed", file, fixed_image=right_handed, moving_image=source)
 
 
 def test_spm_positions_on_request():

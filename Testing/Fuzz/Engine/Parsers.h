@@ -19,7 +19,7 @@ void mgh(const Bytes& bytes);
 void minc1(const Bytes& bytes);
 void nifti(const Bytes& bytes);
 void nrrd(const Bytes& bytes);
-void omezarr(const Bytes& bytes); // files of a folder (folderOf in Parsers.cxx)
+void omezarr(const Bytes& bytes); // files of a folder (folderOf in CaseFile.cxx)
 
 // Displacement fields.
 void metaimagefield(const Bytes& bytes);

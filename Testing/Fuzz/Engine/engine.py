@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs libFuzzer on each parser, and says how much of the formats it reached.
+"""Runs libFuzzer on each parser, and reports how much of the formats it reached.
 
     ./brainshift fuzz --engine libfuzzer [--count N] [--seed S] [--kind PARSER]
 
 N cases of each parser run under the address and undefined-behaviour sanitizers. A case begins with
-files of Testing/Data and those of ./brainshift fuzz, and with what earlier runs found: that stays
-in the build folder. It exits with 1 if a parser crashed, took too long or too much memory, or threw
-anything but a refusal; then a file with the case lies in the folder `findings`.
+files of Testing/Data and those of ./brainshift fuzz, and with what earlier runs found, which the
+build folder keeps. It exits with 1 if a parser crashed, took too long or too much memory, or threw
+anything but a refusal; then the folder `findings` has a file with the case.
 """
 
 import argparse
@@ -16,6 +16,7 @@ import hashlib
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -52,6 +53,8 @@ def arguments(words):
 def gather(folder):
     """Puts the files that parsers begin with into a folder for each; whole or not at all."""
     from seeds import gathered
+    for old in glob.glob(os.path.join(os.path.dirname(folder), "seeds*")):
+        shutil.rmtree(old)  # made of other cases
     with tempfile.TemporaryDirectory(dir=os.path.dirname(folder)) as place:
         for parser in SEEDS:
             os.makedirs(os.path.join(place, "all", parser))
@@ -90,7 +93,7 @@ def fuzzed(build, parser, options, found):
 
 
 def finding_of(said):
-    """What a sanitizer or libFuzzer says of a case, in one line, and where the case lies."""
+    """What a sanitizer or libFuzzer reports of a case, in one line, and the path of the case."""
     words = re.findall(r"^(?:SUMMARY|.*runtime error|terminate called|  what\(\)).*", said,
                        re.MULTILINE)
     place = re.findall(r"Test unit written to (.*)", said)
@@ -139,13 +142,14 @@ def report(found):
 
 
 def main(build, words):
+    from seeds import digest
     options = arguments(words)
     parsers = options.kind or sorted(SEEDS)
     programs = {os.path.basename(path)[5:] for path in glob.glob(
         os.path.join(build, "bin", "fuzz_*"))}
     if programs != set(SEEDS):
         sys.exit(f"Parsers.h and engine.py differ in {sorted(programs ^ set(SEEDS))}")
-    seeds = os.path.join(build, "seeds")
+    seeds = os.path.join(build, f"seeds-{digest()}")
     if not os.path.isdir(seeds):
         gather(seeds)
     faults = total = 0

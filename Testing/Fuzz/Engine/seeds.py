@@ -2,6 +2,8 @@
 """The files that libFuzzer begins with: those of Testing/Data, and those that the cases of
 ./brainshift fuzz make, spoiled or not. Frames, folders and messages get a form of their own."""
 
+import glob
+import hashlib
 import os
 import struct
 import subprocess
@@ -10,7 +12,8 @@ import tempfile
 import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-DATA = os.path.join(HERE, "..", "..", "Data")
+TESTING = os.path.join(HERE, "..", "..")
+DATA = os.path.join(TESTING, "Data")
 #: Kinds of ./brainshift fuzz that make files, and how many of each: enough to meet each variety.
 KINDS = ("dicom", "files", "frames", "hostile", "like", "points", "segments", "surfaces",
          "transforms", "zarr")
@@ -31,9 +34,10 @@ def files_below(folder):
 
 
 def packed(files):
-    """The bytes of a folder: folderOf in Parsers.cxx unpacks them."""
-    return b"".join(bytes([len(name)]) + name.encode() + struct.pack("<H", len(data)) + data
-                    for name, data in files if len(name) < 256 and len(data) < 65536)
+    """The bytes of a folder: folderOf in CaseFile.cxx unpacks them."""
+    named = [(name.encode(), data) for name, data in files]
+    return b"".join(bytes([len(name)]) + name + struct.pack("<H", len(data)) + data
+                    for name, data in named if len(name) < 256 and len(data) < 65536)
 
 
 def frames_of(name, path):
@@ -82,11 +86,28 @@ def sessions():
     yield "pointer.session", f"{text}\n".encode()
 
 
+def digest():
+    """Of what the files are made of: the cases, what they import, and Testing/Data."""
+    found = hashlib.sha256()
+    for place in ("Fuzz", "Formats", "Support", "Data"):
+        for name, data in sorted(files_below(os.path.join(TESTING, place))):
+            if place == "Data" or name.endswith(".py"):
+                found.update(repr((place, name, hashlib.sha256(data).digest())).encode())
+    return found.hexdigest()[:12]
+
+
 def made_by_cases(folder):
-    subprocess.run(
+    """Keeps the files of the cases; exits if a kind left none. Findings are for ./brainshift fuzz
+    to report: its exit status says nothing on the files."""
+    made = subprocess.run(
         [sys.executable, "-B", os.path.join(HERE, "..", "fuzz.py"), "--count", str(COUNT),
          "--seed", str(SEED), "--keep", folder, *(f"--kind={kind}" for kind in KINDS)],
-        stdout=subprocess.DEVNULL, check=False)
+        stdout=subprocess.PIPE, text=True, errors="replace", check=False)
+    empty = [kind for kind in KINDS if not any(
+        os.path.isfile(each) for each in glob.iglob(
+            os.path.join(glob.escape(folder), f"{kind}-*", "**"), recursive=True))]
+    if empty:
+        sys.exit(f"The cases of {', '.join(empty)} left no files to begin with:\n{made.stdout}")
 
 
 def gathered():

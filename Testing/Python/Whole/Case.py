@@ -8,6 +8,7 @@ import shutil
 
 from unittest import mock
 
+import nibabel
 import numpy
 from brainshift_testing import (assert_says, ball, data, load_plugin, messages, run_tests, scratch,
                                 volume)
@@ -416,6 +417,35 @@ def test_a_file_that_was_written_after_it_was_read_is_said():
     casesources._seen.clear()
     assert_says(case.steps[0].found, "Brain: its file is gone")
     assert "later" not in case.steps[0].found, "reports show no names"
+
+
+def test_files_are_read_when_their_header_is():
+    """A time step of a file that was written since is no new file; a new file beside DICOM is."""
+    file, folder = scratch("times.nii.gz"), scratch("slices")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    scan = os.path.join(folder, "scan.dcm")
+    shutil.copy(data("pydicom-data", "emri_small_jpeg_ls_lossless.dcm"), scan)
+    image = nibabel.Nifti1Image(numpy.zeros((4, 5, 6, 3), numpy.int16), numpy.eye(4))
+    image.header.set_zooms((1, 1, 1, 2))
+    nibabel.save(image, file)
+    times, slices = simple.NIFTIVolumeReader(FileName=file), simple.OpenDataFile(scan)
+    for reader in (times, slices):
+        reader.UpdatePipeline()
+        assert not casesources.doubt_about_files(reader)
+    shutil.copy(scan, os.path.join(folder, "another.dcm"))
+    casesources._seen.clear()  # as a moment later
+    assert not casesources.doubt_about_files(slices)
+    for changed, reader in ((file, times), (scan, slices)):
+        os.utime(changed, ns=(1, 1))
+        casesources._seen.clear()
+        assert "was written after" in casesources.doubt_about_files(reader)
+    times.UpdatePipeline(4.0)
+    assert "was written after" in casesources.doubt_about_files(times), "only a time step was read"
+    for reader in (times, slices):
+        simple.ReloadFiles(reader)
+        reader.UpdatePipeline()
+        assert not casesources.doubt_about_files(reader)
 
 
 def test_names_come_back_to_their_sources():
