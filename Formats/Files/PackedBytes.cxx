@@ -201,7 +201,7 @@ void readBox(
   const auto side = [&](int axis) { return static_cast<std::uint64_t>(box.dimensions[axis]); };
   const auto first = [&](int axis) { return static_cast<std::uint64_t>(box.extent[2 * axis]); };
   const auto count = [&](int axis) {
-    return static_cast<std::uint64_t>(box.extent[2 * axis + 1] - box.extent[2 * axis] + 1);
+    return static_cast<std::uint64_t>(box.extent[2 * axis + 1]) + 1 - first(axis);
   };
   if (box.voxelCount() == 0) // a rank without a part
   {
