@@ -30,7 +30,7 @@ struct LevelSource
   int channel = -1;
   std::size_t volume = 0; ///< of the times
   glm::dmat4 worldFromFile{ 1.0 };
-  Grid grid;             ///< of the array
+  Grid grid{};           ///< of the array
   int type = 0;          ///< of its numbers, of vtkType.h
   int components = 0;    ///< for each voxel
   vtkMTimeType time = 0; ///< of the array when it was read

@@ -174,11 +174,13 @@ std::optional<FineGrid> levelSeen(double half)
 
 TEST(LevelFor, HasVoxelsNoLongerThanAPixel)
 {
+  FineGrid none;
+  none.level = 99;
   EXPECT_FALSE(levelSeen(150.0)); // pixels of 3 mm
-  EXPECT_EQ(levelSeen(90.0)->level, 1U);
-  EXPECT_EQ(levelSeen(40.0)->level, 0U);
-  EXPECT_EQ(levelSeen(2.0)->level, 0U); // none is as fine
-  const FineGrid fine = *levelSeen(90.0);
+  EXPECT_EQ(levelSeen(90.0).value_or(none).level, 1U);
+  EXPECT_EQ(levelSeen(40.0).value_or(none).level, 0U);
+  EXPECT_EQ(levelSeen(2.0).value_or(none).level, 0U); // none is as fine
+  const FineGrid fine = levelSeen(90.0).value_or(none);
   EXPECT_EQ(fine.voxels, glm::ivec3(128));
   EXPECT_NEAR(fine.voxelFromTexture.x, 128.0, 1e-9);
   // The volume's texture begins at -0.5 mm, the level's first voxel, at 0 mm, does, too.

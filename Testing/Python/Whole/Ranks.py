@@ -112,7 +112,8 @@ def test_four_ranks_of_pvbatch():
     assert_same(found)
     assert_refused(found)
     assert_same_files(folder_of(4))
-    assert found["bytes again"] <= found["bytes far"], "the first rank gives the whole volume back"
+    # Not as before: boxes of equal work are others for other opacities.
+    assert found["bytes again"] < EXPECTED["bytes again"], "the whole volume is given back"
     for name, most in (("unbent", 0.55), ("bent", 0.75)):  # a quarter, and 10 mm of 60 beyond
         share = found[f"bytes {name}"][0] / EXPECTED[f"bytes {name}"][0]
         print(name, "share of the first rank", share, flush=True)
