@@ -19,10 +19,11 @@ endfunction ()
 #    [ENDINGS text] [FILES text] [MENU text]])
 #
 # Adds a format, whose folder has its name unless FOLDER says another. KINDS are what its files
-# hold: Volumes, Fields, Surfaces or Tracts. For each of them the format defines one constant of
-# that kind, such as `extern const VolumeFormat VolumesOfNRRD{ … };`, and readers of that kind ask
-# it. Formats are asked in the order in which they are added, and the one of each kind that is LAST
-# after all others: of surfaces and tracts, it says what is wrong with a file that none recognises.
+# hold: Volumes, Fields, Surfaces, Tracts or Landmarks. For each of them the format defines one
+# constant of that kind, such as `extern const VolumeFormat VolumesOfNRRD{ … };`, and readers of
+# that kind ask it. Formats are asked in the order in which they are added, and the one of each kind
+# that is LAST after all others: of surfaces and tracts, it says what is wrong with a file that none
+# recognises.
 #
 # With EXTENSIONS, the endings of names without a full stop, ParaView gets a reader of its volumes:
 # a proxy made from Volumes/VolumeReader.xml.in. A reader with properties of its own has a file in
@@ -46,7 +47,7 @@ function (brainshift_add_format name)
     set(arg_FOLDER "${name}")
   endif ()
   foreach (kind IN LISTS arg_KINDS)
-    if (NOT kind MATCHES "^(Volumes|Fields|Surfaces|Tracts)$")
+    if (NOT kind MATCHES "^(Volumes|Fields|Surfaces|Tracts|Landmarks)$")
       message(FATAL_ERROR "brainshift_add_format knows no files of ${kind}")
     endif ()
     set(list "brainshift_formats_OF_${kind}")
@@ -88,13 +89,26 @@ function (brainshift_write_volume_reader format)
   set_property(GLOBAL APPEND PROPERTY brainshift_formats_READERS "${xml}")
 endfunction ()
 
-# brainshift_write_formats(FILE): the lists of formats as C++.
+# brainshift_write_formats(FILE [kind…]): the lists of formats as C++, of all kinds or of some.
 function (brainshift_write_formats file)
-  set(text "// Written by AddFormat.cmake: the formats of each kind.\n")
-  string(APPEND text "#include \"Formats/Fields/FieldFile.h\"\n"
-    "#include \"Formats/Surfaces/SurfaceFile.h\"\n#include \"Formats/Volumes/VolumeFile.h\"\n\n"
-    "namespace brainshift\n{\n")
-  foreach (kind IN ITEMS Volume Field Surface Tract)
+  set(header_of_Volume Volumes/VolumeFile.h)
+  set(header_of_Field Fields/FieldFile.h)
+  set(header_of_Surface Surfaces/SurfaceFile.h)
+  set(header_of_Tract Surfaces/SurfaceFile.h)
+  set(header_of_Landmark Landmarks/LandmarkFormats.h)
+  set(kinds ${ARGN})
+  if (NOT kinds)
+    set(kinds Volume Field Surface Tract Landmark)
+  endif ()
+  set(includes "")
+  foreach (kind IN LISTS kinds)
+    list(APPEND includes "#include \"Formats/${header_of_${kind}}\"\n")
+  endforeach ()
+  list(REMOVE_DUPLICATES includes)
+  list(JOIN includes "" includes)
+  set(text "// Written by AddFormat.cmake: the formats of each kind.\n${includes}\n")
+  string(APPEND text "namespace brainshift\n{\n")
+  foreach (kind IN LISTS kinds)
     get_property(formats GLOBAL PROPERTY "brainshift_formats_OF_${kind}s")
     get_property(last GLOBAL PROPERTY "brainshift_formats_LAST_OF_${kind}s")
     list(APPEND formats ${last})

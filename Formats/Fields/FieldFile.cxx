@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Fields/FieldFile.h"
 
-#include "Formats/Files/Text.h"
+#include "Formats/Files/Endings.h"
 #include "Formats/Files/WayOut.h"
 #include "Formats/Volumes/OutgoingVolume.h"
 
@@ -9,40 +9,14 @@ namespace brainshift
 {
 namespace
 {
-// The format that the ending of a name stands for. Null: none.
-const FieldFormat* formatOf(const std::string& fileName)
-{
-  for (const FieldFormat* format : fieldFormats())
-  {
-    for (const std::string& ending : format->endings())
-    {
-      if (endsWith(fileName, ending))
-      {
-        return format;
-      }
-    }
-  }
-  return nullptr;
-}
-
 const FieldFormat& knownFormatOf(const std::string& fileName)
 {
-  if (const FieldFormat* format = formatOf(fileName))
+  if (const FieldFormat* format = formatByEnding(fieldFormats(), fileName))
   {
     return *format;
   }
-  std::vector<std::string> all;
-  for (const FieldFormat* format : fieldFormats())
-  {
-    const std::vector<std::string> endings = format->endings();
-    all.insert(all.end(), endings.begin(), endings.end());
-  }
-  std::string names;
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    names.append(i == 0 ? "" : i + 1 == all.size() ? " or " : ", ").append(all[i]);
-  }
-  throw Problem("The extension of the displacement field " + fileName + " must be " + names);
+  throw Problem("The extension of the displacement field " + fileName + " must be " +
+    endingsInWords(fieldFormats()));
 }
 }
 
@@ -57,12 +31,12 @@ void reverseXY(DirectedField& field)
 
 bool hasFieldEnding(const std::string& fileName)
 {
-  return formatOf(fileName) != nullptr;
+  return formatByEnding(fieldFormats(), fileName) != nullptr;
 }
 
 bool isFieldFile(const std::string& fileName)
 {
-  const FieldFormat* format = formatOf(fileName);
+  const FieldFormat* format = formatByEnding(fieldFormats(), fileName);
   return format && format->isOne(fileName);
 }
 

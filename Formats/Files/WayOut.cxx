@@ -1,11 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Files/WayOut.h"
 
+#include "Formats/Files/Text.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
 namespace brainshift
 {
+namespace
+{
+constexpr std::string_view Advice[] = { "add", "check", "choose", "close", "convert", "copy",
+  "leave", "let", "make", "name", "open", "save", "set", "turn", "use", "write" };
+
+// Whether a part of a sentence begins with a verb that tells the reader what to do.
+bool isAdvice(const std::string& part)
+{
+  const std::string lower = lowerCase(part);
+  return std::any_of(std::begin(Advice), std::end(Advice), [&lower](std::string_view verb) {
+    return lower.compare(0, verb.size() + 1, std::string(verb) + " ") == 0;
+  });
+}
+}
+
 std::string withWayOut(const std::string& reason, const std::string& wayOut)
 {
-  const auto has = [&reason](const char* words) { return reason.find(words) != std::string::npos; };
-  return has("; ") || has(". ") || has("was stopped") ? reason : reason + "; " + wayOut;
+  bool isThere = reason.find("was stopped") != std::string::npos;
+  for (std::size_t at = reason.find_first_of(";."); at != std::string::npos;
+    at = reason.find_first_of(";.", at + 1))
+  {
+    isThere = isThere || (reason[at + 1] == ' ' && isAdvice(reason.substr(at + 2)));
+  }
+  return isThere ? reason : reason + "; " + wayOut;
 }
 }

@@ -11,9 +11,9 @@
 namespace brainshift
 {
 /**
- * A reason with a way out at its end, unless it has one: what is behind a semicolon or a full stop.
- * A limit that a number of the file must keep, as in "; it must be above 0 mm", counts as one. Work
- * that was stopped needs none.
+ * A reason with a way out at its end, unless it has one: behind a semicolon or a full stop, a verb
+ * that tells the reader what to do, such as "open" or "choose". A limit that a number of the file
+ * must keep is none. Work that was stopped needs none.
  */
 std::string withWayOut(const std::string& reason, const std::string& wayOut);
 

@@ -2,6 +2,7 @@
 #include "Formats/Landmarks/LandmarkFile.h"
 
 #include "Common/Numbers.h"
+#include "Formats/Files/Endings.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WayOut.h"
@@ -19,42 +20,21 @@ namespace
 constexpr std::size_t Beginning = 1 << 16;     // bytes by which a format is known
 constexpr std::size_t LongestText = 512 << 20; // bytes
 
-enum class Format
+const LandmarkFormat& knownFormatOf(const std::string& fileName)
 {
-  Unknown,
-  Markups,
-  Fiducials,
-  Tags,
-  Commas,
-  Tabs,
-};
-
-Format formatOf(const std::string& fileName)
-{
-  return endsWith(fileName, ".json") ? Format::Markups
-    : endsWith(fileName, ".fcsv")    ? Format::Fiducials
-    : endsWith(fileName, ".tag")     ? Format::Tags
-    : endsWith(fileName, ".csv")     ? Format::Commas
-    : endsWith(fileName, ".tsv")     ? Format::Tabs
-                                     : Format::Unknown;
-}
-
-Format knownFormatOf(const std::string& fileName)
-{
-  const Format format = formatOf(fileName);
-  if (format == Format::Unknown)
+  if (const LandmarkFormat* format = formatByEnding(landmarkFormats(), fileName))
   {
-    throw Problem("The extension of the landmark file " + fileName +
-      " must be .mrk.json, .json, .fcsv, .tag, .csv or .tsv");
+    return *format;
   }
-  return format;
+  throw Problem("The extension of the landmark file " + fileName + " must be " +
+    endingsInWords(landmarkFormats()));
 }
 
-// Text in UTF-8. What is none counts as Latin-1, of which each byte is a letter, with a note. JSON
-// is UTF-8 or refused.
-std::string utf8Of(std::string text, Format format, LandmarkList& list)
+// Text in UTF-8. What is none counts as Latin-1, of which each byte is a letter, with a note,
+// unless the format is UTF-8.
+std::string utf8Of(std::string text, const LandmarkFormat& format, LandmarkList& list)
 {
-  if (format == Format::Markups || validUtf8(text) == text)
+  if (format.isUtf8 || validUtf8(text) == text)
   {
     return text;
   }
@@ -62,39 +42,10 @@ std::string utf8Of(std::string text, Format format, LandmarkList& list)
   return utf8OfLatin1(text);
 }
 
-void parse(
-  const std::string& text, Format format, int volume, const TableRule& table, LandmarkList& list)
+bool hasNumbers(const LandmarkList& list)
 {
-  switch (format)
-  {
-    case Format::Markups:
-      return readMarkups(text, list);
-    case Format::Fiducials:
-      return readFiducials(text, list);
-    case Format::Tags:
-      return readTags(text, volume, list);
-    default:
-      return readPointTable(text, table, list);
-  }
-}
-
-// What the format cannot keep of the points.
-void noteLosses(Format format, LandmarkList& list)
-{
-  const bool isTable = format == Format::Commas || format == Format::Tabs;
-  const bool hasNumbers = std::any_of(list.points.begin(), list.points.end(),
+  return std::any_of(list.points.begin(), list.points.end(),
     [](const Landmark& point) { return !std::isnan(point.time) || !std::isnan(point.deviation); });
-  if (hasNumbers && !isTable)
-  {
-    list.notes.emplace_back("cannot hold times and deviations, which are left out; .csv can");
-  }
-  const auto changed = std::count_if(list.points.begin(), list.points.end(),
-    [](const Landmark& point) { return isChangedInTags(point.label); });
-  if (changed > 0 && format == Format::Tags)
-  {
-    list.notes.push_back("has " + std::to_string(changed) +
-      " labels with quotes or new lines, which became apostrophes and spaces");
-  }
 }
 
 // Throws if a point has no finite position, which no format can hold.
@@ -109,21 +60,6 @@ void requirePositions(const std::string& fileName, const LandmarkList& list)
       throw Problem(joined("File ", fileName, " cannot be written: point ", i + 1, name,
         " has no finite position; a transform may have no number there"));
     }
-  }
-}
-
-void write(std::ostream& file, Format format, FileAxes axes, const LandmarkList& list)
-{
-  switch (format)
-  {
-    case Format::Markups:
-      return writeMarkups(file, axes, list);
-    case Format::Fiducials:
-      return writeFiducials(file, axes, list);
-    case Format::Tags:
-      return writeTags(file, list);
-    default:
-      return writePointTable(file, axes, format == Format::Tabs ? '\t' : ',', list);
   }
 }
 }
@@ -176,37 +112,23 @@ void noteSkipped(LandmarkList& list, std::size_t skipped)
 
 bool isLandmarkFile(const std::string& fileName)
 {
-  const Format format = formatOf(fileName);
-  const std::string text =
-    format == Format::Unknown ? std::string() : withoutMark(readBeginning(fileName, Beginning));
-  switch (format)
-  {
-    case Format::Unknown:
-      return false;
-    case Format::Markups:
-      return looksLikeMarkups(text);
-    case Format::Fiducials:
-      return looksLikeFiducials(text);
-    case Format::Tags:
-      return looksLikeTags(text);
-    default:
-      return looksLikePointTable(text);
-  }
+  const LandmarkFormat* format = formatByEnding(landmarkFormats(), fileName);
+  return format && format->looksLike(withoutMark(readBeginning(fileName, Beginning)));
 }
 
 LandmarkList readLandmarkFile(const std::string& fileName, int volume, const TableRule& table)
 {
-  const Format format = knownFormatOf(fileName);
+  const LandmarkFormat& format = knownFormatOf(fileName);
   LandmarkList list;
   constexpr const char* OtherFile =
     "save it again in the program that made it, or as a table (.csv) with columns r, a, s";
   withWayOut("Landmark file " + fileName + " ", OtherFile, [&] {
     const std::string text = utf8Of(readPlainText(fileName, LongestText), format, list);
-    TableRule rule = table;
+    LandmarkChoice choice{ volume, table };
     const std::optional<ElectrodeFrame> beside = electrodeFrame(fileName, list);
-    rule.mm = beside ? beside->mm : table.mm;
-    rule.axes = beside && beside->axes ? *beside->axes : table.axes;
-    parse(text, format, volume, rule, list);
+    choice.table.mm = beside ? beside->mm : table.mm;
+    choice.table.axes = beside && beside->axes ? *beside->axes : table.axes;
+    format.read(text, choice, list);
   });
   return list;
 }
@@ -214,15 +136,19 @@ LandmarkList readLandmarkFile(const std::string& fileName, int volume, const Tab
 void writeLandmarkFile(
   const std::string& fileName, std::optional<FileAxes> axes, LandmarkList& list)
 {
-  const Format format = knownFormatOf(fileName);
-  if (format == Format::Tags && axes == FileAxes::LPS)
+  const LandmarkFormat& format = knownFormatOf(fileName);
+  if (format.hasOneFrame && axes.value_or(format.axes) != format.axes)
   {
-    throw Problem("File " + fileName + " cannot be written: an MNI tag file has RAS axes, not LPS");
+    const bool isRas = format.axes == FileAxes::RAS;
+    throw Problem("File " + fileName + " cannot be written: a file of its kind has " +
+      (isRas ? "RAS axes, not LPS" : "LPS axes, not RAS"));
   }
   requirePositions(fileName, list);
-  const bool isOfSlicer = format == Format::Markups || format == Format::Fiducials;
-  const FileAxes written = axes.value_or(isOfSlicer ? FileAxes::LPS : FileAxes::RAS);
-  noteLosses(format, list);
-  writeWholeStream(fileName, [&](std::ostream& file) { write(file, format, written, list); });
+  if (hasNumbers(list) && !format.holdsNumbers)
+  {
+    list.notes.emplace_back("cannot hold times and deviations, which are left out; .csv can");
+  }
+  writeWholeStream(
+    fileName, [&](std::ostream& file) { format.write(file, axes.value_or(format.axes), list); });
 }
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Landmarks and traced points as files keep them, the limits that files must hold, and the
-/// formats. They take text and give points in RAS mm. What is wrong in a text is thrown as the end
-/// of a sentence, after the name of the file.
+/// interface of a format. It takes text and gives points in RAS mm.
 #ifndef BrainShift_LandmarkFormats_h
 #define BrainShift_LandmarkFormats_h
 
@@ -68,21 +67,6 @@ std::string beginningAt(const std::string& where);
 /** Notes how many points were left out for want of a position. */
 void noteSkipped(LandmarkList& list, std::size_t skipped);
 
-///@{
-/** Markups of Slicer (.mrk.json), MarkupsFile.cxx. One list of the type Fiducial is written. */
-void readMarkups(const std::string& text, LandmarkList& list);
-bool looksLikeMarkups(const std::string& beginning);
-void writeMarkups(std::ostream& file, FileAxes axes, const LandmarkList& list);
-///@}
-
-///@{
-/** Fiducials of Slicer (.fcsv), FiducialFile.cxx. They are written as Slicer 5 does. */
-void readFiducials(const std::string& text, LandmarkList& list);
-bool looksLikeFiducials(const std::string& beginning);
-void writeFiducials(std::ostream& file, FileAxes axes, const LandmarkList& list);
-///@}
-
-///@{
 /** What a table itself does not tell. */
 struct TableRule
 {
@@ -91,24 +75,30 @@ struct TableRule
   double mm = 1.0;                  ///< of one unit, if no name of a column tells it
 };
 
-/**
- * Tables (.csv, .tsv), PointTable.cxx. Written columns are called r, a, s or l, p, s.
- */
-void readPointTable(const std::string& text, const TableRule& rule, LandmarkList& list);
-bool looksLikePointTable(const std::string& beginning);
-void writePointTable(std::ostream& file, FileAxes axes, char separator, const LandmarkList& list);
-///@}
+/** What the reader of a file is told beside its text. Each format takes what concerns it. */
+struct LandmarkChoice
+{
+  int volume = 1;  ///< of an MNI tag file, whose points are read: 1 or 2
+  TableRule table; ///< of a table
+};
 
-///@{
-/**
- * MNI Tag Point Files (.tag), TagFile.cxx. `volume`, 1 or 2, is the one whose points are read.
- * Those of one volume are written. Quotes in labels become apostrophes, new lines spaces.
- */
-void readTags(const std::string& text, int volume, LandmarkList& list);
-bool looksLikeTags(const std::string& beginning);
-void writeTags(std::ostream& file, const LandmarkList& list);
-bool isChangedInTags(const std::string& label);
-///@}
+/** A format of landmarks. Formats/README.md has the recipe for a new one. */
+struct LandmarkFormat
+{
+  std::vector<std::string> (*endings)(); ///< of names of files, such as ".fcsv"
+  bool (*looksLike)(const std::string& beginning);
+  /** Adds points and notes, or throws the end of a sentence after the name of the file. */
+  void (*read)(const std::string& text, const LandmarkChoice& choice, LandmarkList& list);
+  /** Writes all points. What the format cannot hold of them becomes a note of the list. */
+  void (*write)(std::ostream& file, FileAxes axes, LandmarkList& list);
+  FileAxes axes = FileAxes::RAS; ///< in which it is written if the user chooses none
+  bool hasOneFrame = false;      ///< whether it cannot be written in others
+  bool isUtf8 = false;           ///< text that is none is refused, not read as Latin-1
+  bool holdsNumbers = false;     ///< whether it holds times and deviations
+};
+
+/** All formats of landmarks. brainshift_add_format writes this list. */
+const std::vector<const LandmarkFormat*>& landmarkFormats();
 }
 
 #endif

@@ -176,7 +176,7 @@ void PlacedVolume::readHeader(const std::string& fileName)
   this->FileName = fileName;
   if (fileName.empty())
   {
-    throw Problem("FileName is empty; it must name a " + this->File->noun());
+    throw Problem("FileName is empty; it must name the " + this->File->noun());
   }
   this->Header = VolumeHeader();
   withWayOut(this->sentence(""), OtherVolume, [&] {

@@ -103,7 +103,8 @@ LIBRARIES = {
 
 #: What the formats of a kind share.
 KIND_ROOMS = {"Volumes": "Formats/Volumes", "Fields": "Formats/Fields",
-              "Surfaces": "Formats/Surfaces", "Tracts": "Formats/Surfaces"}
+              "Surfaces": "Formats/Surfaces", "Tracts": "Formats/Surfaces",
+              "Landmarks": "Formats/Landmarks"}
 
 FORMAT = re.compile(r"^brainshift_add_format\((\w+)\s+KINDS((?:\s+[A-Z][a-z]+)+)", re.MULTILINE)
 

@@ -35,16 +35,16 @@ LandmarkList twoPoints()
   return list;
 }
 
-template <typename Write, typename Read>
-void expectAlike(const Write& write, const Read& read)
+void expectAlike(const LandmarkFormat& format)
 {
   std::ostringstream written;
-  write(written, twoPoints());
+  LandmarkList points = twoPoints();
+  format.write(written, format.axes, points);
   EXPECT_EQ(written.str().find('\r'), std::string::npos);
   for (const char* end : { "\n", "\r\n" })
   {
     LandmarkList found;
-    read(withEnds(written.str(), end), found);
+    format.read(withEnds(written.str(), end), {}, found);
     ASSERT_EQ(found.points.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i)
     {
@@ -55,27 +55,12 @@ void expectAlike(const Write& write, const Read& read)
 }
 }
 
-TEST(LineEnds, OfTables)
+TEST(LineEnds, OfEachFormat)
 {
-  for (const char separator : { ',', '\t' })
+  ASSERT_GE(landmarkFormats().size(), 5u);
+  for (const LandmarkFormat* format : landmarkFormats())
   {
-    expectAlike(
-      [&](std::ostream& file, const LandmarkList& list) {
-        writePointTable(file, FileAxes::RAS, separator, list);
-      },
-      [](const std::string& text, LandmarkList& list) { readPointTable(text, {}, list); });
+    SCOPED_TRACE(format->endings().front());
+    expectAlike(*format);
   }
-}
-
-TEST(LineEnds, OfFiducials)
-{
-  expectAlike(
-    [](std::ostream& file, const LandmarkList& list) { writeFiducials(file, FileAxes::LPS, list); },
-    readFiducials);
-}
-
-TEST(LineEnds, OfTags)
-{
-  expectAlike(
-    writeTags, [](const std::string& text, LandmarkList& list) { readTags(text, 1, list); });
 }

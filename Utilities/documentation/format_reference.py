@@ -3,7 +3,8 @@
 
 `CMakeLists.txt` there calls brainshift_add_format, which names the format, its kinds of data and
 the words of its reader. `README.md` there opens with a table: format, read, written, axes, unit,
-library, limits. The text after that table is the manual page of the format.
+library, limits, and "fields read" and "fields written" of displacement fields. The text after that
+table is the manual page of the format.
 """
 
 import dataclasses
@@ -113,6 +114,7 @@ def endings(kinds, column="read"):
         rows = [row.strip("| ").split(" | ") for row in transforms().split("\n")[2:]]
         named = [(program, file) for file, program, _ in rows if program != "all"]
     else:
+        column = f"fields {column}" if kinds == "Fields" else column
         named = [(item.table["format"], item.table[column])
                  for item in formats() if item.is_of(kinds.split())]
     by_format = {}

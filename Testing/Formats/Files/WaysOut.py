@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that each reader says a way out of what it refuses: of files that are empty, cut, or begin
 # with other bytes, in each ending that a reader takes.
+import re
+
 from brainshift_testing import load_plugin, messages, run_tests, scratch
 
 load_plugin()
@@ -23,8 +25,14 @@ READERS = {"DICOMVolumeReader": (".dcm",), "NIFTIVolumeReader": (".nii", ".nii.g
            "LandmarkReader": (".csv", ".mrk.json", ".fcsv", ".tag")}
 
 
+#: The last part of a sentence that says what to do begins so.
+ADVICE = re.compile(
+    r"(?:; |\. )(?:choose|close|convert|copy|let|make|name|open|save|set|write) [^;.]",
+    re.IGNORECASE)
+
+
 def has_way_out(sentence):
-    return "; " in sentence or ". " in sentence.rstrip()
+    return bool(ADVICE.search(sentence))
 
 
 def refusals(reader, ending):
@@ -44,7 +52,7 @@ def refusals(reader, ending):
 def test_each_refusal_of_a_reader_says_a_way_out():
     silent, count = [], 0
     for reader, endings in READERS.items():
-        for ending in endings if hasattr(simple, reader) else ():
+        for ending in endings:
             for begin, sentence in refusals(reader, ending):
                 count += 1
                 if not has_way_out(sentence):

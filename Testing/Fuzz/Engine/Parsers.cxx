@@ -2,6 +2,7 @@
 #include "Testing/Fuzz/Engine/Parsers.h"
 
 #include "Formats/Fields/FieldFile.h"
+#include "Formats/Files/Endings.h"
 #include "Formats/Files/ZipFile.h"
 #include "Formats/Landmarks/LandmarkFormats.h"
 #include "Formats/PackedFrames/PackedFrame.h"
@@ -33,6 +34,13 @@ bool GoOn(double /*fraction*/)
 std::string niftiEnding(const Bytes& bytes)
 {
   return bytes.compare(0, 2, "\x1f\x8b") == 0 ? ".nii.gz" : ".nii";
+}
+
+/** Reads landmarks by the format that an ending stands for. */
+void readLandmarks(const Bytes& bytes, const std::string& ending)
+{
+  LandmarkList list;
+  formatByEnding(landmarkFormats(), ending)->read(bytes, {}, list);
 }
 
 /** Reads the last volume of a file, and so the furthest bytes. */
@@ -300,26 +308,22 @@ void xfm(const Bytes& bytes)
 
 void fcsv(const Bytes& bytes)
 {
-  LandmarkList list;
-  readFiducials(bytes, list);
+  readLandmarks(bytes, ".fcsv");
 }
 
 void markups(const Bytes& bytes)
 {
-  LandmarkList list;
-  readMarkups(bytes, list);
+  readLandmarks(bytes, ".json");
 }
 
 void table(const Bytes& bytes)
 {
-  LandmarkList list;
-  readPointTable(bytes, {}, list);
+  readLandmarks(bytes, ".csv");
 }
 
 void tag(const Bytes& bytes)
 {
-  LandmarkList list;
-  readTags(bytes, 1, list);
+  readLandmarks(bytes, ".tag");
 }
 
 void message(const Bytes& bytes)

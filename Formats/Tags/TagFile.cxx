@@ -220,9 +220,13 @@ void readPoints(Words& words, Reading& reading, LandmarkList& list)
     }
   }
 }
+
+bool looksLikeTags(const std::string& beginning)
+{
+  return trimmed(beginning).compare(0, Magic.size(), Magic) == 0;
 }
 
-void readTags(const std::string& text, int volume, LandmarkList& list)
+void readTags(const std::string& text, const LandmarkChoice& choice, LandmarkList& list)
 {
   if (!looksLikeTags(text))
   {
@@ -230,38 +234,43 @@ void readTags(const std::string& text, int volume, LandmarkList& list)
   }
   Words words(std::string_view(text).substr(text.find(Magic) + Magic.size()));
   const std::size_t volumes = readHeader(words);
-  if (static_cast<std::size_t>(volume) > volumes)
+  if (static_cast<std::size_t>(choice.volume) > volumes)
   {
-    throw Problem("has points of 1 volume; Volume is " + std::to_string(volume));
+    throw Problem(
+      "has points of 1 volume; Volume is " + std::to_string(choice.volume) + " and must be 1");
   }
 
   Reading reading;
   reading.coordinates = 3 * volumes;
-  reading.offset = 3 * static_cast<std::size_t>(volume - 1);
+  reading.offset = 3 * static_cast<std::size_t>(choice.volume - 1);
   readPoints(words, reading, list);
 }
 
-bool looksLikeTags(const std::string& beginning)
+// Those of one volume. Quotes in labels become apostrophes, new lines spaces.
+void writeTags(std::ostream& file, FileAxes /*axes*/, LandmarkList& list)
 {
-  return trimmed(beginning).compare(0, Magic.size(), Magic) == 0;
-}
-
-bool isChangedInTags(const std::string& label)
-{
-  return label.find_first_of("\"\r\n") != std::string::npos;
-}
-
-void writeTags(std::ostream& file, const LandmarkList& list)
-{
+  std::size_t changed = 0;
   file << Magic << "\nVolumes = 1;\n\nPoints =";
   for (const Landmark& point : list.points)
   {
     std::string label = validUtf8(point.label);
+    changed += label.find_first_of("\"\r\n") != std::string::npos ? 1 : 0;
     std::replace(label.begin(), label.end(), '"', '\'');
     std::replace_if(label.begin(), label.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     file << "\n " << numberText(point.position.x) << " " << numberText(point.position.y) << " "
          << numberText(point.position.z) << " \"" << label << "\"";
   }
   file << ";\n";
+  if (changed > 0)
+  {
+    list.notes.push_back("has " + std::to_string(changed) +
+      " labels with quotes or new lines, which became apostrophes and spaces");
+  }
 }
+}
+
+extern const LandmarkFormat LandmarksOfTags{ []() -> std::vector<std::string> {
+                                              return { ".tag" };
+                                            },
+  looksLikeTags, readTags, writeTags, FileAxes::RAS, true, false, false };
 }

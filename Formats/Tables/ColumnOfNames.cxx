@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/Landmarks/NameColumn.h"
+#include "Formats/Tables/ColumnOfNames.h"
 
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
@@ -60,7 +60,7 @@ bool isNumber(std::string value)
 }
 }
 
-NameColumn::NameColumn(
+ColumnOfNames::ColumnOfNames(
   const std::vector<std::string>& header, const std::vector<std::size_t>& taken)
 {
   for (std::size_t i = 0; i < header.size(); ++i)
@@ -79,7 +79,7 @@ NameColumn::NameColumn(
   }
 }
 
-void NameColumn::add(const std::vector<std::string>& values)
+void ColumnOfNames::add(const std::vector<std::string>& values)
 {
   for (Candidate& candidate : this->Candidates)
   {
@@ -97,14 +97,14 @@ void NameColumn::add(const std::vector<std::string>& values)
   }
 }
 
-bool NameColumn::Candidate::differs() const
+bool ColumnOfNames::Candidate::differs() const
 {
   std::vector<std::size_t> sorted = this->hashes;
   std::sort(sorted.begin(), sorted.end());
   return !sorted.empty() && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
-std::optional<NameColumn::Found> NameColumn::find() const
+std::optional<ColumnOfNames::Found> ColumnOfNames::find() const
 {
   using Rule = bool (*)(const Candidate&);
   constexpr Rule Rules[] = {

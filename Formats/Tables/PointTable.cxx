@@ -8,9 +8,9 @@
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Landmarks/CoordinateWords.h"
-#include "Formats/Landmarks/NameColumn.h"
-#include "Formats/Landmarks/PointColumns.h"
 #include "Formats/Landmarks/Records.h"
+#include "Formats/Tables/ColumnOfNames.h"
+#include "Formats/Tables/PointColumns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -167,10 +167,10 @@ void findNames(const std::string& text, char separator, Columns& columns, Landma
   const bool isPlain = std::any_of(header.begin(), header.end(),
     [](const std::string& name) { return nameOf(name) == "label" || nameOf(name) == "name"; });
   taken.push_back(isPlain ? columns.number : header.size()); // else it is all that tells points
-  NameColumn names(header, taken);
+  ColumnOfNames names(header, taken);
   forEachPoint(
     text, separator, [&](const Values& values, const std::string&) { names.add(values); });
-  const std::optional<NameColumn::Found> found = names.find();
+  const std::optional<ColumnOfNames::Found> found = names.find();
   columns.label = found ? found->at : header.size();
   if (found && found->isGuessed)
   {
@@ -340,10 +340,10 @@ Columns requiredColumns(
   findNames(text, separator, *columns, list);
   return *columns;
 }
-}
 
-void readPointTable(const std::string& text, const TableRule& rule, LandmarkList& list)
+void readPointTable(const std::string& text, const LandmarkChoice& choice, LandmarkList& list)
 {
+  const TableRule& rule = choice.table;
   char separator = ',';
   const Columns columns = requiredColumns(text, rule.columns, separator, list);
   const SaidOfPositions comments = saidByComments(text, separator, list);
@@ -380,7 +380,9 @@ bool looksLikePointTable(const std::string& beginning)
   return isFound || !problem.empty(); // several positions are some
 }
 
-void writePointTable(std::ostream& file, FileAxes axes, char separator, const LandmarkList& list)
+// Columns are called r, a, s or l, p, s.
+template <char separator>
+void writePointTable(std::ostream& file, FileAxes axes, LandmarkList& list)
 {
   std::vector<double Landmark::*> written;
   file << "label";
@@ -411,4 +413,11 @@ void writePointTable(std::ostream& file, FileAxes axes, char separator, const La
     file << "\n";
   }
 }
+}
+
+extern const LandmarkFormat LandmarksOfCSV{ []() -> std::vector<std::string> { return { ".csv" }; },
+  looksLikePointTable, readPointTable, writePointTable<','>, FileAxes::RAS, false, false, true };
+
+extern const LandmarkFormat LandmarksOfTSV{ []() -> std::vector<std::string> { return { ".tsv" }; },
+  looksLikePointTable, readPointTable, writePointTable<'\t'>, FileAxes::RAS, false, false, true };
 }

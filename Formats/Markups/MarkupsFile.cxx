@@ -334,9 +334,8 @@ private:
     addLandmark(this->List, this->Point, "control point " + std::to_string(this->Read));
   }
 };
-}
 
-void readMarkups(const std::string& text, LandmarkList& list)
+void readMarkups(const std::string& text, const LandmarkChoice& /*choice*/, LandmarkList& list)
 {
   MarkupsHandler handler(list);
   nlohmann::json::sax_parse(text, &handler);
@@ -349,8 +348,6 @@ bool looksLikeMarkups(const std::string& beginning)
   return !text.empty() && text[0] == '{' && text.find("\"markups\"") != std::string::npos;
 }
 
-namespace
-{
 std::string jsonWord(const std::string& word)
 {
   std::string quoted = "\"";
@@ -375,9 +372,9 @@ std::string jsonWord(const std::string& word)
   }
   return quoted + '"';
 }
-}
 
-void writeMarkups(std::ostream& file, FileAxes axes, const LandmarkList& list)
+// One list of the type Fiducial.
+void writeMarkups(std::ostream& file, FileAxes axes, LandmarkList& list)
 {
   file << "{\n  \"@schema\": \"" << Schema << "\",\n  \"markups\": [\n    {\n"
        << "      \"type\": \"Fiducial\",\n"
@@ -397,4 +394,10 @@ void writeMarkups(std::ostream& file, FileAxes axes, const LandmarkList& list)
   }
   file << "\n      ]\n    }\n  ]\n}\n";
 }
+}
+
+extern const LandmarkFormat LandmarksOfMarkups{ []() -> std::vector<std::string> {
+                                                 return { ".mrk.json", ".json" };
+                                               },
+  looksLikeMarkups, readMarkups, writeMarkups, FileAxes::LPS, false, true, false };
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Which column of a table holds the names of points, by what it is called and by its values.
-#ifndef BrainShift_NameColumn_h
-#define BrainShift_NameColumn_h
+#ifndef BrainShift_ColumnOfNames_h
+#define BrainShift_ColumnOfNames_h
 
 #include <cstddef>
 #include <optional>
@@ -19,14 +19,14 @@ namespace brainshift
  * 3. the first of words whose values differ, unless its name says what else it is,
  * 4. one that is called so and whose values repeat.
  */
-class NameColumn
+class ColumnOfNames
 {
 public:
   /**
    * @param header   the names of all columns
    * @param taken    columns that mean something else
    */
-  NameColumn(const std::vector<std::string>& header, const std::vector<std::size_t>& taken);
+  ColumnOfNames(const std::vector<std::string>& header, const std::vector<std::size_t>& taken);
 
   /** Looks at a record: the values of all columns, or fewer. */
   void add(const std::vector<std::string>& values);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/Landmarks/PointColumns.h"
+#include "Formats/Tables/PointColumns.h"
 
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"

@@ -110,9 +110,8 @@ void readFiducial(const Values& values, const FiducialHeader& header, Landmark& 
   point.position = inAxes(header.said.axes.value_or(FileAxes::RAS), position);
   point.label = header.label < values.size() ? validUtf8(trimmed(values[header.label])) : "";
 }
-}
 
-void readFiducials(const std::string& text, LandmarkList& list)
+void readFiducials(const std::string& text, const LandmarkChoice& /*choice*/, LandmarkList& list)
 {
   const FiducialHeader header = headerOf(text);
   std::size_t read = 0;
@@ -153,7 +152,8 @@ bool looksLikeFiducials(const std::string& beginning)
       text.find("# columns") != std::string::npos);
 }
 
-void writeFiducials(std::ostream& file, FileAxes axes, const LandmarkList& list)
+// As Slicer 5 writes them.
+void writeFiducials(std::ostream& file, FileAxes axes, LandmarkList& list)
 {
   file << "# Markups fiducial file version = 5.6\n"
        << "# CoordinateSystem = " << (axes == FileAxes::RAS ? "RAS" : "LPS") << "\n"
@@ -166,4 +166,10 @@ void writeFiducials(std::ostream& file, FileAxes axes, const LandmarkList& list)
          << recordValue(validUtf8(list.points[i].label), ',') << ",,," << Placed << ",0\n";
   }
 }
+}
+
+extern const LandmarkFormat LandmarksOfFiducials{ []() -> std::vector<std::string> {
+                                                   return { ".fcsv" };
+                                                 },
+  looksLikeFiducials, readFiducials, writeFiducials, FileAxes::LPS, false, false, false };
 }
