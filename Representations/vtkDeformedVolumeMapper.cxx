@@ -269,6 +269,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.showsEvidence = this->DrawsEvidence(request.tissue.blend);
   request.resection = readResection(image);
   request.memoryLimitMiB = this->MemoryLimit;
+  request.waits = this->WaitsForDetail;
   request.wish.adaptive = this->AdaptiveQuality;
   request.wish.keep = this->KeepPicture || OverVolumes::areVisibleIn(renderer);
   request.wish.countSamples = this->CountSamples;
@@ -511,7 +512,8 @@ const Counters& vtkDeformedVolumeMapper::CountDetail()
 {
   Counters& count = this->Internal->Count;
   count.gpuLevel = -1;
-  count.gpuBricks = count.gpuBricksWanted = count.gpuBricksLackRoom = 0;
+  count.gpuBricks = count.gpuBricksWanted = 0;
+  count.gpuBricksLackRoom = count.gpuBricksComing = 0;
   this->Internal->Devices.visitAnyhow(
     [&](const VolumeDevice& device) { device.bricks().count(count); });
   return count;
@@ -548,6 +550,7 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "EmptySpaceSkipping: " << this->EmptySpaceSkipping << "\n"
      << indent << "AdaptiveQuality: " << this->AdaptiveQuality << "\n"
      << indent << "KeepPicture: " << this->KeepPicture << "\n"
+     << indent << "WaitsForDetail: " << this->WaitsForDetail << "\n"
      << indent << "CountSamples: " << this->CountSamples << "\n"
      << indent << "DrawSegment: " << this->DrawSegment << "\n"
      << indent << "ShowEvidence: " << this->ShowEvidence << "\n"

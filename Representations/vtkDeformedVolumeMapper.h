@@ -123,6 +123,15 @@ public:
 
   ///@{
   /**
+   * A still picture waits for the bricks of a finer level that it shows, up to a minute: it is to
+   * be saved. The mapper is not modified by it. Default false.
+   */
+  void SetWaitsForDetail(bool waits) { this->WaitsForDetail = waits; }
+  vtkGetMacro(WaitsForDetail, bool);
+  ///@}
+
+  ///@{
+  /**
    * Draw only tissue whose rest position is in the chosen labels of the segmentation that the
    * volume carries (Filters/Attached/Segmentation.h). Default false.
    */
@@ -296,6 +305,7 @@ private:
   bool AdaptiveQuality = true;
   bool CountSamples = false;
   bool KeepPicture = false;
+  bool WaitsForDetail = false;
   double MemoryLimit = 0.0;
   bool DrawSegment = false;
   bool ShowEvidence = false;

@@ -19,6 +19,19 @@
 
 #include <cmath>
 
+namespace
+{
+// ParaView knows whether a picture is to be saved, and tells the view's subclasses alone.
+struct CapturingView : vtkPVView
+{
+  static bool isCapturing(vtkPVView* view)
+  {
+    bool (vtkPVView::*ask)() = &CapturingView::GetInCaptureScreenshot;
+    return view && (view->*ask)();
+  }
+};
+}
+
 vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
 
 vtkDeformedVolumeRepresentation::vtkDeformedVolumeRepresentation()
@@ -201,9 +214,11 @@ void vtkDeformedVolumeRepresentation::UpdateMapperParameters()
 
 // A selection of points compares with the depths of the last picture and adds none. ParaView's
 // insets, the axes in the corners, clear some of them. So the depths of the tissue are drawn first.
-void vtkDeformedVolumeRepresentation::CoverPointSelection(vtkObject* caller, unsigned long, void*)
+void vtkDeformedVolumeRepresentation::PreparePicture(vtkObject* caller, unsigned long, void*)
 {
   auto* renderer = static_cast<vtkRenderer*>(caller);
+  this->GetDeformedVolumeMapper()->SetWaitsForDetail(
+    CapturingView::isCapturing(vtkPVView::SafeDownCast(this->GetView())));
   if (brainshift::selectsPoints(renderer) && this->Actor->GetVisibility())
   {
     this->GetDeformedVolumeMapper()->CoverSelection(renderer);
@@ -256,7 +271,7 @@ bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)
     this->Smoothing->watch(renderer);
     this->Moving->watch(renderer);
     this->RenderStart = renderer->AddObserver(
-      vtkCommand::StartEvent, this, &vtkDeformedVolumeRepresentation::CoverPointSelection);
+      vtkCommand::StartEvent, this, &vtkDeformedVolumeRepresentation::PreparePicture);
   }
   return this->Superclass::AddToView(view);
 }

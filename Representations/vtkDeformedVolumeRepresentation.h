@@ -125,7 +125,7 @@ private:
 
   bool ComparesInColors() const override;
   void TellOnce(bool unsupported, const std::string& sentence);
-  void CoverPointSelection(vtkObject* caller, unsigned long, void*);
+  void PreparePicture(vtkObject* caller, unsigned long, void*);
 
   vtkNew<vtkVolumeOrder> Order;
   vtkNew<vtkPiecewiseFunction> GradientFactors;

@@ -6,6 +6,7 @@
 
 #include <pqCoreUtilities.h>
 #include <pqDataRepresentation.h>
+#include <pqServerManagerModel.h>
 #include <pqView.h>
 
 #include <vtkPVArrayInformation.h>
@@ -25,8 +26,8 @@ namespace brainshift
 {
 namespace
 {
-constexpr int EachMs = 100;    // ten pictures a second at most
-constexpr int WatchedMs = 500; // where nothing is to come
+constexpr int EachMs = 100;    // how often it asks while bricks are read
+constexpr int AtMostMs = 1000; // without a picture while bricks are read
 
 // Whether its volume is read from a file with levels. Others are asked nothing.
 bool hasLevels(pqDataRepresentation* display)
@@ -55,25 +56,36 @@ void say(const std::vector<double>& detail)
     shownMs);
 }
 
-// Draws once more if something is to come. Returns whether it was.
-bool draw(pqDataRepresentation* display)
+enum class Detail
+{
+  Complete,
+  Coming, // a picture a little later shows more
+  Drawn
+};
+
+// Draws once more if something is to come.
+Detail draw(pqDataRepresentation* display, bool isLate)
 {
   pqView* view = display->getView();
   if (!view || view->getProxy()->GetSession()->GetPendingProgress())
   {
-    return false;
+    return view ? Detail::Coming : Detail::Complete;
   }
   const vtkSmartPointer<vtkSMProxy> report =
     makeReport(display->getProxy(), "DeformedVolumeReport");
   pointAt(report, "Representation", display->getProxy());
   const std::vector<double> detail = answerOf(report, "Detail");
-  if (detail.size() != 4 || detail[2] <= 0)
+  if (detail.size() != 5 || detail[2] <= 0)
   {
-    return false;
+    return Detail::Complete;
+  }
+  if (detail[4] > 0 && !isLate)
+  {
+    return Detail::Coming;
   }
   view->forceRender();
   say(answerOf(report, "Detail"));
-  return true;
+  return Detail::Drawn;
 }
 }
 
@@ -81,21 +93,57 @@ FinerDetail::FinerDetail(QObject* parent)
   : QObject(parent)
 {
   this->Next.setSingleShot(true);
-  this->Next.setInterval(WatchedMs);
+  this->Next.setInterval(EachMs);
   QObject::connect(&this->Next, &QTimer::timeout, this, &FinerDetail::drawOn);
-  this->Next.start();
+  const auto watch = [this](pqView* view) {
+    QObject::connect(view, &pqView::endRender, this, &FinerDetail::watch);
+  };
+  QObject::connect(serverManagerModel(), &pqServerManagerModel::viewAdded, this, watch);
+  for (pqView* view : serverManagerModel()->findItems<pqView*>())
+  {
+    watch(view);
+  }
+}
+
+// After each picture rays may ask for more.
+void FinerDetail::watch()
+{
+  if (!this->Next.isActive())
+  {
+    this->Next.start();
+  }
 }
 
 void FinerDetail::drawOn()
 {
-  bool isLoading = false;
-  if (QApplication::mouseButtons() == Qt::NoButton) // else the hand draws
+  if (QApplication::mouseButtons() != Qt::NoButton) // the hand draws
   {
-    for (pqDataRepresentation* display : serverManagerModel()->findItems<pqDataRepresentation*>())
+    this->Next.start();
+    return;
+  }
+  bool isLoading = false;
+  const bool isLate = this->SinceDrawn.isValid() && this->SinceDrawn.elapsed() > AtMostMs;
+  for (pqDataRepresentation* display : serverManagerModel()->findItems<pqDataRepresentation*>())
+  {
+    const Detail detail = hasLevels(display) ? draw(display, isLate) : Detail::Complete;
+    isLoading = isLoading || detail != Detail::Complete;
+    if (detail == Detail::Drawn)
     {
-      isLoading = (hasLevels(display) && draw(display)) || isLoading;
+      this->SinceDrawn.start();
     }
   }
-  this->Next.start(isLoading ? EachMs : WatchedMs);
+  if (isLoading)
+  {
+    if (!this->SinceDrawn.isValid())
+    {
+      this->SinceDrawn.start();
+    }
+    this->Next.start();
+  }
+  else
+  {
+    this->SinceDrawn.invalidate();
+    this->Next.stop();
+  }
 }
 }

@@ -5,6 +5,8 @@
 #ifndef BrainShift_FinerDetail_h
 #define BrainShift_FinerDetail_h
 
+#include <QElapsedTimer>
+#include <QObject>
 #include <QTimer>
 
 namespace brainshift
@@ -17,9 +19,11 @@ public:
   explicit FinerDetail(QObject* parent);
 
 private:
+  void watch();
   void drawOn();
 
   QTimer Next;
+  QElapsedTimer SinceDrawn; // or since bricks began to come; invalid: nothing comes
 };
 }
 

@@ -123,6 +123,7 @@ def gpu(representation):
     - `gpuBricks`: bricks of it that are drawn where rays meet them, in all views
     - `gpuBricksWanted`: bricks that are still to come, at least 1 while there may be some; 0: each
       view is complete, or has as many as its memory holds
+    - `gpuBricksComing`: views that had better be drawn a little later, while bricks are read
     - `gpuBricksLackRoom`: views with more bricks than their memory holds
     - `gpuFieldMicroseconds`: microseconds of the last computation from control points to offset
       field, or 0 if the driver does not measure it
@@ -152,4 +153,6 @@ def draw_detail(view, representation, seconds=60.0):
         if time.monotonic() > end:
             raise RuntimeError(f"{now['gpuBricksWanted']} bricks of level {now['gpuLevel']} are "
                                f"still to come after {seconds} s; give more seconds")
-        time.sleep(0.02)  # for the thread that reads
+        report = _report(representation)  # a picture of each brick would take most of the time
+        while _answer(report, "Detail").GetElement(4) and time.monotonic() < end:
+            time.sleep(0.01)

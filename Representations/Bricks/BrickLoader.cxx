@@ -18,7 +18,6 @@ namespace brainshift
 namespace
 {
 constexpr std::int64_t MostBlockBytes = 192 << 20; // of voxels that neighbours may need, too
-constexpr std::size_t MostWaiting = 512; // bricks that no picture has taken yet, some 40 MB
 
 // First and last rest brick along an axis that each voxel of a slot can reach.
 struct Reach
@@ -177,6 +176,13 @@ std::int64_t BrickLoader::waiting()
       (this->Reading ? 1 : 0);
 }
 
+bool BrickLoader::isDone()
+{
+  const std::lock_guard<std::mutex> lock(this->Lock);
+  return this->Read.size() >= MostBricksInPicture ||
+    (this->Opened && !this->Reading && this->Next >= this->Wanted.size());
+}
+
 bool BrickLoader::isStopped()
 {
   const std::lock_guard<std::mutex> lock(this->Lock);
@@ -189,7 +195,8 @@ bool BrickLoader::next(BrickOrder& order, int& brick)
   std::unique_lock<std::mutex> lock(this->Lock);
   this->Reading = false;
   this->Wake.wait(lock, [this] {
-    return this->Stopped || (this->Next < this->Wanted.size() && this->Read.size() < MostWaiting);
+    return this->Stopped ||
+      (this->Next < this->Wanted.size() && this->Read.size() < MostBricksInPicture);
   });
   if (this->Stopped)
   {

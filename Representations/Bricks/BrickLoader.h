@@ -37,6 +37,9 @@ struct FineGrid
   }
 };
 
+/// Bricks that come between two pictures, some 100 MB of 16-bit numbers: more wait for the next.
+constexpr std::size_t MostBricksInPicture = 1024;
+
 /// What bricks are read of, and for what.
 struct BrickOrder
 {
@@ -93,6 +96,9 @@ public:
 
   /// Bricks that are still to come, or were not taken; 1 while the headers are read.
   std::int64_t waiting();
+
+  /// Whether nothing more comes before bricks are taken or ordered.
+  bool isDone();
 
 private:
   struct Block // of voxels, as the file packs them

@@ -2,6 +2,7 @@
 #include "Representations/Bricks/PageTable.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace brainshift
 {
@@ -16,6 +17,7 @@ void PageTable::reset(const glm::ivec3& bricks, const glm::ivec3& slots)
   this->Bricks.assign(room, None);
   this->Views.assign(room, Unseen);
   this->Taken = 0;
+  this->ChangedLayers = { 0, bricks.z };
 }
 
 void PageTable::use(int brick, std::int64_t view)
@@ -72,5 +74,15 @@ void PageTable::setTexel(int brick, int slot)
     texel[axis] = static_cast<std::uint8_t>(place[axis]);
   }
   texel[3] = slot == None ? 0 : 255;
+  const int layer = brick / (this->Size.x * this->Size.y);
+  glm::ivec2& changed = this->ChangedLayers;
+  changed = changed.x == changed.y
+    ? glm::ivec2(layer, layer + 1)
+    : glm::ivec2(std::min(changed.x, layer), std::max(changed.y, layer + 1));
+}
+
+glm::ivec2 PageTable::takeChangedLayers()
+{
+  return std::exchange(this->ChangedLayers, glm::ivec2(0));
 }
 }

@@ -57,6 +57,10 @@ public:
   /// Four bytes for each brick.
   const std::vector<std::uint8_t>& texels() const { return this->Texels; }
 
+  /// Layers of bricks (z) whose texels changed since the last call: the first, and one past the
+  /// last; none if they are equal. After reset all of them did.
+  glm::ivec2 takeChangedLayers();
+
 private:
   void setTexel(int brick, int slot);
 
@@ -67,6 +71,7 @@ private:
   std::vector<std::int64_t> Views; // in which the brick of each slot was seen last
   std::vector<std::uint8_t> Texels;
   int Taken = 0;
+  glm::ivec2 ChangedLayers{ 0 };
 };
 }
 

@@ -2,6 +2,7 @@
 #include "Representations/Bricks/StreamedBricks.h"
 
 #include "Representations/Gpu/OpenGL.h"
+#include "Representations/Gpu/VolumePass.h"
 #include "Representations/Scene/Frustum.h"
 
 #include "vtkOpenGLRenderWindow.h"
@@ -20,7 +21,6 @@ constexpr double BytesInMiB = 1048576.0;
 constexpr std::int64_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
 constexpr double UsualLimitMiB = 1024.0; // where the user sets none
 constexpr int LeastSlots = 8;
-constexpr std::size_t MostUploads = 512;   // for one picture, some 40 MB
 constexpr std::size_t BricksInBatch = 512; // read side by side, whichever is more urgent
 constexpr double MostBricks = 16777216.0;  // rays write their numbers as floats
 constexpr double StaysFiner = 1.3;         // times a pixel
@@ -166,7 +166,7 @@ void StreamedBricks::forgetBricks()
 {
   this->Failed.clear();
   this->Wanted.clear();
-  this->ViewNumbers.clear();
+  this->ViewNumbers = {};
   this->Changes += 1;
 }
 
@@ -219,31 +219,6 @@ glm::ivec3 slotsASide(std::int64_t slots, int most)
   side.y = within(std::sqrt(static_cast<double>(slots) / side.x));
   side.z = within(static_cast<double>(slots) / (side.x * side.y));
   return side;
-}
-
-vtkSmartPointer<vtkTextureObject> makeTexture(
-  vtkOpenGLRenderWindow* window, unsigned int format, int filter)
-{
-  auto texture = vtkSmartPointer<vtkTextureObject>::New();
-  texture->SetContext(window);
-  texture->SetInternalFormat(format);
-  texture->SetMinificationFilter(filter);
-  texture->SetMagnificationFilter(filter);
-  texture->SetWrapS(vtkTextureObject::ClampToEdge);
-  texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  return texture;
-}
-
-void replaceTexels(vtkTextureObject* texture, const IndexBox& box, unsigned int format,
-  unsigned int type, const void* values)
-{
-  const glm::ivec3 size = box.size();
-  texture->Activate();
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage3D(GL_TEXTURE_3D, 0, box.first.x, box.first.y, box.first.z, size.x, size.y, size.z,
-    format, type, values);
-  texture->Deactivate();
 }
 }
 
@@ -306,13 +281,16 @@ void StreamedBricks::noteView(
   {
     now.insert(now.end(), &matrix[0][0], &matrix[0][0] + 16);
   }
-  if (now != this->ViewNumbers)
+  this->Eye = view.eye.value_or(0);
+  this->IsStereo = view.eye.has_value();
+  if (now != this->ViewNumbers[this->Eye])
   {
-    this->ViewNumbers = std::move(now);
+    this->ViewNumbers[this->Eye] = std::move(now);
     this->View += 1;
-    this->Quiet = 0;
+    this->Quiet = { 0, 0 };
     this->Full = false;
     this->Wanted.clear();
+    this->Failed.clear(); // the file may be whole again
   }
 }
 
@@ -323,8 +301,11 @@ void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures)
     this->Failed.insert(read.brick);
     return;
   }
+  // A brick that an earlier view asked for is the first to go.
+  const bool isWanted =
+    std::find(this->Wanted.begin(), this->Wanted.end(), read.brick) != this->Wanted.end();
   const int slot = this->Table.slotOf(read.brick) == PageTable::None
-    ? this->Table.take(read.brick, this->View)
+    ? this->Table.take(read.brick, isWanted ? this->View : this->View - 1)
     : PageTable::None;
   if (slot == PageTable::None)
   {
@@ -333,10 +314,24 @@ void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures)
   const glm::ivec3 first = this->Table.placeOf(slot) * SlotSideVoxels;
   const IndexBox box{ first, first + SlotSideVoxels - 1 };
   const bool floats = !read.numbers.floats.empty();
-  replaceTexels(this->Atlas, box, GL_RED, floats ? GL_FLOAT : GL_UNSIGNED_SHORT,
-    floats ? static_cast<const void*>(read.numbers.floats.data())
-           : read.numbers.sixteenBits.data());
+  replaceTexels(this->Atlas,
+    { box, GL_RED, static_cast<unsigned int>(floats ? GL_FLOAT : GL_UNSIGNED_SHORT),
+      floats ? static_cast<const void*>(read.numbers.floats.data())
+             : read.numbers.sixteenBits.data() });
   textures.widenRanges(read.ranges.first, read.ranges.found);
+}
+
+void StreamedBricks::uploadPages()
+{
+  const glm::ivec2 layers = this->Table.takeChangedLayers();
+  if (layers.x < layers.y)
+  {
+    const glm::ivec3 side = this->Table.bricks();
+    const std::size_t first = 4 * static_cast<std::size_t>(layers.x) * side.x * side.y;
+    replaceTexels(this->Pages,
+      { { glm::ivec3(0, 0, layers.x), glm::ivec3(side.x, side.y, layers.y) - 1 }, GL_RGBA,
+        GL_UNSIGNED_BYTE, &this->Table.texels()[first] });
+  }
 }
 
 void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks& bricks)
@@ -350,11 +345,10 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
   {
     this->RangesOf = textures.scalars();
     this->Table.reset(glm::ivec3(this->Table.bricks()), glm::ivec3(this->Table.slots()));
-    this->PagesAreOld = true;
     this->forgetBricks();
   }
-  const std::int64_t before = this->Changes;
-  for (const ReadBrick& read : this->Loader->take(gpu.moving ? MostUploads / 8 : MostUploads))
+  for (const ReadBrick& read :
+    this->Loader->take(gpu.moving ? MostBricksInPicture / 16 : MostBricksInPicture))
   {
     this->place(read, textures);
     this->Changes += 1;
@@ -363,13 +357,7 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
       gpu.remarks.push_back(read.remark);
     }
   }
-  if (before != this->Changes || this->PagesAreOld)
-  {
-    const glm::ivec3 last = this->Table.bricks() - 1;
-    replaceTexels(
-      this->Pages, { glm::ivec3(0), last }, GL_RGBA, GL_UNSIGNED_BYTE, this->Table.texels().data());
-    this->PagesAreOld = false;
-  }
+  this->uploadPages();
   bricks.pages = this->Pages;
   bricks.atlas = this->Atlas;
   bricks.voxels = glm::dvec3(this->Level->voxels);
@@ -377,6 +365,7 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
   bricks.voxelOfTextureZero = this->Level->voxelOfTextureZero;
   bricks.seed = { 7 * this->Pictures, 3 * this->Pictures };
   bricks.changes = this->Changes;
+  bricks.asks = this->Asks && !this->isQuiet();
 }
 
 void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
@@ -387,7 +376,7 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
   }
   if (wishes.empty()) // nothing was cast: the picture before is shown, and asks for nothing more
   {
-    this->Quiet += this->Wanted.empty() ? 1 : 0;
+    this->Quiet[this->Eye] += this->Asks && this->Wanted.empty() ? 1 : 0;
     return;
   }
   this->Pictures += 1;
@@ -409,8 +398,13 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
   }
   this->Wanted = this->inOrder(pixels);
   this->Loader->order(this->Order, this->Wanted);
-  this->Quiet = this->Wanted.empty() ? this->Quiet + 1 : 0;
-  this->Changes += this->Quiet == 1 ? 1 : 0; // a picture with other wishes
+  if (!this->Wanted.empty())
+  {
+    this->Quiet = { 0, 0 };
+    return;
+  }
+  this->Quiet[this->Eye] += 1;
+  this->Changes += this->Quiet[this->Eye] == 1 ? 1 : 0; // a picture with other wishes
 }
 
 // Those that can come: the bricks of most pixels first, in batches of neighbours, which share
@@ -455,8 +449,28 @@ std::int64_t StreamedBricks::wanted() const
     return 1; // a picture that knows them is to come
   }
   const std::int64_t waiting = this->Level && this->Atlas ? this->Loader->waiting() : 0;
-  const bool isSure = !this->Level || !this->Atlas || this->Quiet >= QuietPictures;
+  const bool isSure = !this->Level || !this->Atlas || this->isQuiet();
   return waiting > 0 ? waiting : isSure ? 0 : 1;
+}
+
+// Each eye has rays of its own.
+bool StreamedBricks::isQuiet() const
+{
+  return this->Quiet[0] >= QuietPictures && (!this->IsStereo || this->Quiet[1] >= QuietPictures);
+}
+
+bool StreamedBricks::isWorthAPicture() const
+{
+  return this->wanted() > 0 && this->Loader->isDone();
+}
+
+bool StreamedBricks::waitForMore(const Clock::time_point& end) const
+{
+  while (this->wanted() > 0 && !this->isWorthAPicture() && Clock::now() < end)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return this->wanted() > 0 && Clock::now() < end;
 }
 
 void StreamedBricks::count(Counters& counters) const
@@ -468,6 +482,7 @@ void StreamedBricks::count(Counters& counters) const
     counters.gpuBricksLackRoom += this->Full ? 1 : 0;
   }
   counters.gpuBricksWanted += this->wanted();
+  counters.gpuBricksComing += this->wanted() > 0 && !this->isWorthAPicture() ? 1 : 0;
 }
 
 void StreamedBricks::release(vtkWindow* window)

@@ -10,6 +10,8 @@
 #include "Representations/Scene/SceneFrame.h"
 #include "Representations/Tissue/TissueTextures.h"
 
+#include <array>
+#include <chrono>
 #include <map>
 #include <set>
 
@@ -22,6 +24,7 @@ struct BrickView
   glm::ivec2 pixels{ 0 }; ///< Of the picture, a side.
   double limitMiB = 0.0;  ///< For the bricks; 0: as much as is usual.
   bool asks = true;       ///< Rays ask for bricks.
+  std::optional<int> eye; ///< 0 or 1 of a stereo picture.
 };
 
 /// The level that suits a view: the coarsest whose voxels are no longer than a pixel is wide where
@@ -50,6 +53,21 @@ public:
   /// Nothing more is wanted until the next plan.
   void rest() { this->Asks = false; }
 
+  /// Bricks that this view waits for; 1 where only another picture can tell.
+  std::int64_t wanted() const;
+
+  /// Whether the next picture shows more, or tells more, than one a little later would not.
+  bool isWorthAPicture() const;
+
+  using Clock = std::chrono::steady_clock;
+
+  /// Waits until the next picture is worth it, but not longer than until `end`. False: then, or
+  /// nothing is wanted.
+  bool waitForMore(const Clock::time_point& end) const;
+
+  /// The view asks for more than there is room for.
+  bool lacksRoom() const { return this->Full; }
+
   /// Adds the present state to the counters. The GPU is not asked.
   void count(Counters& counters) const;
 
@@ -67,7 +85,8 @@ private:
   void noteView(const GpuTask& gpu, const BrickView& view, const TissueRequest& tissue);
   void place(const ReadBrick& read, TissueTextures& textures);
   std::vector<int> inOrder(const std::map<int, int>& pixels);
-  std::int64_t wanted() const;
+  void uploadPages();
+  bool isQuiet() const;
 
   std::optional<LevelSource> Source;
   std::unique_ptr<BrickLoader> Loader; // null: there are no finer levels
@@ -79,20 +98,21 @@ private:
   PageTable Table;
   vtkSmartPointer<vtkTextureObject> Atlas;
   vtkSmartPointer<vtkTextureObject> Pages;
-  int Bytes = 4; // of a voxel
-  bool PagesAreOld = false;
-  double LimitMiB = 0.0;                     // see BrickView
-  bool IsRefused = false;                    // the memory for it
-  vtkWeakPointer<vtkTextureObject> RangesOf; // whose ranges were widened
-  std::set<int> Failed;                      // bricks that cannot be read
-  std::vector<int> Wanted;                   // as ordered last
-  bool SaidDamage = false;                   // of this source
-  std::vector<double> ViewNumbers;
+  int Bytes = 4;                                  // of a voxel
+  double LimitMiB = 0.0;                          // see BrickView
+  bool IsRefused = false;                         // the memory for it
+  vtkWeakPointer<vtkTextureObject> RangesOf;      // whose ranges were widened
+  std::set<int> Failed;                           // bricks that cannot be read
+  std::vector<int> Wanted;                        // as ordered last
+  bool SaidDamage = false;                        // of this source
+  std::array<std::vector<double>, 2> ViewNumbers; // of each eye
+  int Eye = 0;                                    // of the last picture
+  bool IsStereo = false;
   std::int64_t View = 0;    // counts views
   std::int64_t Changes = 0; // counts changes of what is there
   int Pictures = 0;
-  int Quiet = 0;     // pictures in a row without a wish
-  bool Full = false; // this view asks for more than there is room for
+  std::array<int, 2> Quiet{ 0, 0 }; // pictures of each eye in a row without a wish
+  bool Full = false;                // this view asks for more than there is room for
 };
 }
 

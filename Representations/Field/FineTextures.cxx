@@ -12,40 +12,6 @@ namespace brainshift
 {
 namespace
 {
-vtkSmartPointer<vtkTextureObject> makeTexture(
-  vtkOpenGLRenderWindow* window, unsigned int format, int filter)
-{
-  auto texture = vtkSmartPointer<vtkTextureObject>::New();
-  texture->SetContext(window);
-  texture->SetInternalFormat(format);
-  texture->SetMinificationFilter(filter);
-  texture->SetMagnificationFilter(filter);
-  texture->SetWrapS(vtkTextureObject::ClampToEdge);
-  texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  return texture;
-}
-
-// Texels of a part of a texture, x fastest.
-struct Texels
-{
-  IndexBox box;
-  unsigned int format = 0;
-  unsigned int type = 0;
-  const void* values = nullptr;
-};
-
-void upload(vtkTextureObject* texture, const Texels& texels)
-{
-  const glm::ivec3& first = texels.box.first;
-  const glm::ivec3 size = texels.box.size();
-  texture->Activate();
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage3D(GL_TEXTURE_3D, 0, first.x, first.y, first.z, size.x, size.y, size.z,
-    texels.format, texels.type, texels.values);
-  texture->Deactivate();
-}
-
 NodeBlock blockOf(
   const IndexBox& nodes, const std::vector<glm::vec4>& texels, const glm::vec3& scale)
 {
@@ -166,7 +132,7 @@ bool FineTextures::makeCodes(vtkOpenGLRenderWindow* window, const glm::ivec3& co
 void FineTextures::uploadCodes(const IndexBox& cells, Counters& counters)
 {
   const std::vector<float> codes = this->Fine.codes(cells);
-  upload(this->Codes, { cells, GL_RED, GL_FLOAT, codes.data() });
+  replaceTexels(this->Codes, { cells, GL_RED, GL_FLOAT, codes.data() });
   counters.correctionBytes += static_cast<std::int64_t>(codes.size() * sizeof(float));
 }
 
@@ -185,7 +151,7 @@ void FineTextures::uploadReaches(const DrawnOffsets& offsets, const IndexBox& no
       texels[(static_cast<std::size_t>(at.z) * size.y + at.y) * size.x + at.x];
     marked.emplace_back(glm::vec3(read), reaches[marked.size()]);
   });
-  upload(offsets.texture, { corners, GL_RGBA, GL_FLOAT, marked.data() });
+  replaceTexels(offsets.texture, { corners, GL_RGBA, GL_FLOAT, marked.data() });
   counters.correctionBytes += static_cast<std::int64_t>(marked.size() * sizeof(glm::vec4));
 }
 
@@ -226,7 +192,7 @@ bool FineTextures::uploadCorrections(vtkOpenGLRenderWindow* window, Counters& co
       { SlotSide * SlotsInRow - 1, SlotSide * (last % RowsInLayer) + SlotSide - 1,
         SlotSide * layer + SlotSide - 1 } };
     const std::vector<std::uint64_t> texels = this->Fine.texels(box);
-    upload(this->Corrections, { box, GL_RGBA, GL_HALF_FLOAT, texels.data() });
+    replaceTexels(this->Corrections, { box, GL_RGBA, GL_HALF_FLOAT, texels.data() });
     counters.correctionBytes += static_cast<std::int64_t>(texels.size() * sizeof(std::uint64_t));
     row = last + 1;
   }

@@ -42,6 +42,7 @@ struct Counters
   std::int64_t gpuLevel = -1;            ///< Now: a finer level that bricks are drawn of; -1: none.
   std::int64_t gpuBricks = 0;            ///< Now: bricks of it that are there.
   std::int64_t gpuBricksWanted = 0;      ///< Now: 0 where the view has all that it gets.
+  std::int64_t gpuBricksComing = 0;      ///< Now: views that had better be drawn a little later.
   std::int64_t gpuBricksLackRoom = 0;    ///< Now: views with more bricks than there is room for.
   std::int64_t gpuFieldMicroseconds = 0; ///< The GPU's last run from lattice to offset field.
 };

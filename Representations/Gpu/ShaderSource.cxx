@@ -178,7 +178,7 @@ std::string nameOf(const RayCastVariant& variant)
     (variant.compared ? "_compared" : "") + (variant.cavity ? "_cavity" : "") +
     opacities[static_cast<int>(variant.opacity)] + (variant.evidence ? "_evidence" : "") +
     (variant.removed ? "_removed" : "") + (variant.tumour ? "_tumour" : "") +
-    (variant.streamed ? "_streamed" : "");
+    (variant.streamed ? "_streamed" : "") + (variant.asks ? "_asks" : "");
 }
 
 // Where bricks of a finer level are drawn, rays ask for others in the target that counts samples.
@@ -186,7 +186,7 @@ std::string streamedDefines(const RayCastVariant& variant)
 {
   return !variant.streamed ? ""
                            : "#define STREAMED\n" + floatDefine("BRICK_SIDE", StreamedSide) +
-      floatDefine("BRICK_BORDER", SlotBorder) + (variant.asks() ? "#define WISHES\n" : "");
+      floatDefine("BRICK_BORDER", SlotBorder) + (variant.asks ? "#define WISHES\n" : "");
 }
 }
 
@@ -389,6 +389,9 @@ void addStreamed(NamedSources& sources, bool deformed)
     RayCastVariant streamed{ deformed, light };
     streamed.streamed = true;
     add(sources, streamed);
+    streamed.asks = true;
+    add(sources, streamed);
+    streamed.asks = false;
     streamed.averaged = streamed.counted = true;
     add(sources, streamed);
   }

@@ -35,7 +35,7 @@ constexpr int CorrectionLayerBytes = SlotsInRow * RowsInLayer * SlotSide * SlotS
 ///@}
 
 constexpr int StreamedSide = 32; ///< Voxels of a brick of a finer level, a side.
-constexpr int SlotBorder = 1;    ///< Voxels of its neighbours around it, for interpolation.
+constexpr int SlotBorder = 2;    ///< Voxels of its neighbours around it: light looks one further.
 
 constexpr int MaxClipPlanes = 16;
 constexpr int MaxIsovalues = 32;
@@ -106,9 +106,7 @@ struct RayCastVariant
   bool removed = false;              ///< Tissue of a resection is left out.
   bool tumour = false;               ///< The tumour of a resection is marked.
   bool streamed = false; ///< Bricks of a finer level; Composite, Mapped, no other opacity, alone.
-
-  /// Whether rays ask for bricks.
-  bool asks() const { return this->streamed && !this->counted; }
+  bool asks = false;     ///< Rays ask for bricks; streamed and not counted only.
 
   bool operator<(const RayCastVariant& other) const
   {
@@ -116,7 +114,7 @@ struct RayCastVariant
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
         variant.regions, variant.segmented, variant.counted, variant.sharedLight, variant.averaged,
         variant.compared, variant.cavity, variant.opacity, variant.evidence, variant.removed,
-        variant.tumour, variant.streamed);
+        variant.tumour, variant.streamed, variant.asks);
     };
     return key(*this) < key(other);
   }

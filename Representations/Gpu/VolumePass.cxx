@@ -65,6 +65,31 @@ std::vector<glm::vec4> readVolume(vtkOpenGLRenderWindow* window, vtkTextureObjec
   return texels;
 }
 
+vtkSmartPointer<vtkTextureObject> makeTexture(
+  vtkOpenGLRenderWindow* window, unsigned int format, int filter)
+{
+  auto texture = vtkSmartPointer<vtkTextureObject>::New();
+  texture->SetContext(window);
+  texture->SetInternalFormat(format);
+  texture->SetMinificationFilter(filter);
+  texture->SetMagnificationFilter(filter);
+  texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  texture->SetWrapR(vtkTextureObject::ClampToEdge);
+  return texture;
+}
+
+void replaceTexels(vtkTextureObject* texture, const Texels& texels)
+{
+  const glm::ivec3& first = texels.box.first;
+  const glm::ivec3 size = texels.box.size();
+  texture->Activate();
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(GL_TEXTURE_3D, 0, first.x, first.y, first.z, size.x, size.y, size.z,
+    texels.format, texels.type, texels.values);
+  texture->Deactivate();
+}
+
 void clearVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* target)
 {
   vtkOpenGLState* state = window->GetState();

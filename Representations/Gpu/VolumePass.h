@@ -6,7 +6,10 @@
 #ifndef BrainShift_VolumePass_h
 #define BrainShift_VolumePass_h
 
+#include "Filters/Deformation/FieldChange.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
+#include "vtkSmartPointer.h"
 
 #include <glm/glm.hpp>
 
@@ -34,6 +37,22 @@ int leadToSecondThread(int first, int count);
 /// `count`: the box, texels.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<glm::vec4> readVolume(vtkOpenGLRenderWindow* window,
   vtkTextureObject* texture, const glm::ivec3& first, const glm::ivec3& count);
+
+/// A texture without texels whose ends hold beyond them. `format`: OpenGL's, of its texels;
+/// `filter`: vtkTextureObject's.
+vtkSmartPointer<vtkTextureObject> makeTexture(
+  vtkOpenGLRenderWindow* window, unsigned int format, int filter);
+
+/// Texels of a box of a 3D texture, x fastest. `format`, `type`: OpenGL's, of the values.
+struct Texels
+{
+  IndexBox box;
+  unsigned int format = 0;
+  unsigned int type = 0;
+  const void* values = nullptr;
+};
+
+void replaceTexels(vtkTextureObject* texture, const Texels& texels);
 
 /// Sets all of a 3D texture to zero.
 void clearVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* target);

@@ -83,7 +83,7 @@ void CastImages::attach(
   {
     scope.attach(2, this->Count);
   }
-  if (variant.asks())
+  if (variant.asks)
   {
     scope.attach(2, this->Wishes);
     this->clear(2);

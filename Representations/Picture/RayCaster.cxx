@@ -395,6 +395,7 @@ RayCastVariant variantOf(const RayCastScene& scene)
   variant.removed = scene.resection.removed.fractions != nullptr;
   variant.tumour = scene.resection.tumour.fractions && !variant.compared;
   variant.streamed = scene.bricks.pages != nullptr;
+  variant.asks = variant.streamed && scene.bricks.asks && !variant.counted;
   variant.sharedLight =
     tissue.shaded && !variant.averaged && !variant.compared && tissue.raysEndSoon();
   return variant;
@@ -450,7 +451,7 @@ bool RayCaster::draw(
   const RayCastVariant variant = variantOf(scene);
   Program& program = this->CastPrograms[variant];
   if ((variant.counted && !this->Images.prepareCount(window)) ||
-    (variant.asks() && !this->Images.prepareWishes(window)) ||
+    (variant.asks && !this->Images.prepareWishes(window)) ||
     (scene.image.skips && !this->findSpans(window, scene, counters)) ||
     !program.use(window, rayCastSource(variant), counters))
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/VolumeDevice.h"
 
+#include "vtkCamera.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -22,6 +23,8 @@ SceneBlending blendingFor(const VolumeRequest& request, const TissueRequest& tis
 
 namespace
 {
+constexpr std::chrono::seconds LongestWait(60); // for bricks, of a picture that is saved
+
 // Tiles of a large picture show light that tissue of their neighbours hides: a margin of it is cast
 // with each of them.
 void widenTile(PictureWish& wish, RayCastScene& scene)
@@ -109,9 +112,49 @@ bool VolumeDevice::askForMemory(
 bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
   const VolumeRequest& request)
 {
+  const bool waits = request.waits && !gpu.moving;
+  const auto end = StreamedBricks::Clock::now() + LongestWait;
+  this->Picture.begin();
+  do
+  {
+    if (!this->castTissue(gpu, drawn, deformation, request))
+    {
+      return false;
+    }
+    this->Bricks.finish(this->images().takeWishes());
+  } while (waits && this->Bricks.waitForMore(end));
+  if (waits)
+  {
+    this->sayIfCoarse(gpu);
+  }
+  const PictureWish& wish = request.wish;
+  const bool done = this->images().composite(
+    gpu.window, { wish.origin, wish.origin + wish.size }, this->Picture.shade(), gpu.counters);
+  this->Picture.end();
+  return done;
+}
+
+void VolumeDevice::sayIfCoarse(GpuTask& gpu) const
+{
+  const std::int64_t wanted = this->Bricks.wanted();
+  if (wanted > 0)
+  {
+    gpu.remarks.push_back("A picture that was saved is coarser in places: " +
+      std::to_string(wanted) + " bricks of finer voxels were still to come after " +
+      std::to_string(LongestWait.count()) + " s. Save it once more to wait for them");
+  }
+  else if (this->Bricks.lacksRoom())
+  {
+    gpu.remarks.emplace_back("A picture that was saved is coarser in places: there is no memory "
+                             "for more bricks of finer voxels. Set a greater Memory Limit");
+  }
+}
+
+bool VolumeDevice::castTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
+  const VolumeRequest& request)
+{
   RayCastScene scene;
   RayCastScene referenceScene;
-  this->Picture.begin();
   bool alone = request.reference.isAlone();
   if (alone && !this->uploadReference(gpu, drawn, request, scene))
   {
@@ -129,7 +172,6 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
     this->compare(gpu, drawn, request, scene, referenceScene);
   }
   PictureWish wish = request.wish;
-  const PixelBox shown{ wish.origin, wish.origin + wish.size };
   const glm::dmat4 clipFromWorld = scene.frame.clipFromWorld;
   widenTile(wish, scene);
   if (!this->Picture.cast(gpu, drawn, wish, scene))
@@ -141,11 +183,7 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
   {
     this->images().trimTile(wish.margin, clipFromWorld);
   }
-  const bool done =
-    this->images().composite(gpu.window, shown, this->Picture.shade(), gpu.counters);
-  this->Bricks.finish(this->images().takeWishes());
-  this->Picture.end();
-  return done;
+  return true;
 }
 
 namespace
@@ -170,6 +208,10 @@ TissueRequest VolumeDevice::planBricks(
   TissueRequest tissue = request.tissue;
   BrickView view{ frameOf(drawn, tissue.values), request.wish.size, 0.0,
     !request.wish.countSamples };
+  if (gpu.window->GetStereoRender())
+  {
+    view.eye = drawn.renderer->GetActiveCamera()->GetLeftEye() != 0 ? 0 : 1;
+  }
   if (request.memoryLimitMiB > 0.0)
   {
     constexpr double bytesInMiB = 1048576.0;

@@ -29,6 +29,7 @@ struct VolumeRequest
   SceneReference reference;
   bool showsEvidence = false;
   Resection resection;
+  bool waits = false;          ///< A still picture has all bricks that its rays ask for.
   double memoryLimitMiB = 0.0; ///< 0: all that the driver gives.
   std::vector<double> part;    ///< Between these bounds (mm) of the deformed frame; empty: all.
   glm::dvec3 wholeLow{ 0.0 };  ///< With a part: the whole volume's box, in the grid of its voxels.
@@ -62,6 +63,9 @@ private:
   bool askForMemory(GpuTask& gpu, const SceneDeformation& deformation, VolumeRequest& request);
   bool drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
     const VolumeRequest& request);
+  bool castTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
+    const VolumeRequest& request);
+  void sayIfCoarse(GpuTask& gpu) const;
   bool uploadVolume(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
     const VolumeRequest& request, RayCastScene& scene);
   TissueRequest planBricks(

@@ -128,6 +128,7 @@ struct SceneBricks
   glm::dvec3 voxelOfTextureZero{ 0.0 };
   glm::ivec2 seed{ 0 };     ///< Which bricks rays ask for, of several.
   std::int64_t changes = 0; ///< Counts changes of what is there.
+  bool asks = false;        ///< Rays ask for bricks.
 };
 
 /// Bricks of the deformed frame in which something can be seen. Filled by

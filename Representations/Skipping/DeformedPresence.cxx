@@ -233,16 +233,16 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
     }
     this->Known.count = request.count;
   }
-  else if (!this->AllNew && samePlaces(this->Known, request))
+  else if (!this->Failed && samePlaces(this->Known, request))
   {
     known = true;
-    box = bricksOfNodes(request, changed);
+    box = this->AllNew ? box : bricksOfNodes(request, changed);
     if (box.empty())
     {
       return true;
     }
   }
-  this->AllNew = true; // until all of it succeeded
+  this->Failed = true; // until all of it succeeded
   if (!this->compute(window, request, box, counters))
   {
     return false;
@@ -258,7 +258,7 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
   }
   counters.presenceUpdates += 1;
   this->Known = request;
-  this->AllNew = false;
+  this->AllNew = this->Failed = false;
   return true;
 }
 

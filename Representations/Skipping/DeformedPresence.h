@@ -97,7 +97,8 @@ private:
   vtkSmartPointer<vtkTextureObject> Blocks[2]; // least, greatest offset in each, voxels
   vtkSmartPointer<vtkOpenGLBufferObject> Corners;
   PresenceRequest Known; // the request that Occupied answers
-  bool AllNew = true;    // nothing of Occupied can be kept
+  bool AllNew = true;    // any brick may be occupied or empty now
+  bool Failed = false;   // so Occupied is not of Known
   Program BlocksProgram;
   Program MapPrograms[2]; // [deformed]
   std::array<BrickFaces, 6> Faces;

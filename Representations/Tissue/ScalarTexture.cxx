@@ -288,8 +288,12 @@ StoredNumbers ScalarTexture::storedNumbers(
   return numbers;
 }
 
-void ScalarTexture::widenRanges(const glm::ivec3& first, const BrickRanges& others)
+bool ScalarTexture::widenRanges(
+  const glm::ivec3& first, const BrickRanges& others, const VisibleValues& visible)
 {
+  const auto isVisible = [&](
+                           const glm::vec2& range) { return range.x <= range.y && visible(range); };
+  bool appears = false;
   const glm::ivec3& count = this->Ranges.count;
   std::size_t next = 0;
   forEachIndex(first, first + others.count - 1, [&](const glm::ivec3& brick) {
@@ -297,8 +301,11 @@ void ScalarTexture::widenRanges(const glm::ivec3& first, const BrickRanges& othe
     glm::vec2& range =
       this->Ranges
         .ranges[(static_cast<std::size_t>(brick.z) * count.y + brick.y) * count.x + brick.x];
-    range = glm::vec2(std::min(range.x, other.x), std::max(range.y, other.y));
+    const glm::vec2 wider(std::min(range.x, other.x), std::max(range.y, other.y));
+    appears = appears || (wider != range && isVisible(wider) && !isVisible(range));
+    range = wider;
   });
+  return appears;
 }
 
 template <typename Stored>

@@ -68,8 +68,10 @@ public:
   /// them.
   static StoredNumbers storedNumbers(vtkDataArray* scalars, const glm::ivec3& size, int component);
 
-  /// Lets the ranges of bricks from `first` on hold others, too.
-  void widenRanges(const glm::ivec3& first, const BrickRanges& others);
+  /// Lets the ranges of bricks from `first` on hold others, too. Returns whether one of them is
+  /// visible now and was not before.
+  bool widenRanges(
+    const glm::ivec3& first, const BrickRanges& others, const VisibleValues& visible);
 
   /// Bytes of one value on the GPU of the current context.
   static int bytesOf(vtkDataArray* scalars, int component);

@@ -271,6 +271,15 @@ bool TissueTextures::updateGradients(
   return true;
 }
 
+// Most bricks that finer voxels widen could be seen before.
+void TissueTextures::widenRanges(const glm::ivec3& first, const BrickRanges& others)
+{
+  const VisibleValues mapped = this->Transfer.visibleValues(this->Stored.scale, this->Stored.shift);
+  const bool isMapped = this->VisibleBlend != Blend::Isosurface && !this->Segment.texture();
+  const bool appears = this->Scalars.widenRanges(first, others, mapped);
+  this->VisibilityChanged = this->VisibilityChanged || appears || !isMapped;
+}
+
 std::vector<float> TissueTextures::summedVisibility() const
 {
   const VisibleValues mapped = this->Transfer.visibleValues(this->Stored.scale, this->Stored.shift);

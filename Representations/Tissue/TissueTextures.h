@@ -64,11 +64,7 @@ public:
   bool takeVisibilityChange() { return std::exchange(this->VisibilityChanged, false); }
 
   /// Lets the ranges of rest bricks hold others, too: of finer voxels that are drawn there.
-  void widenRanges(const glm::ivec3& first, const BrickRanges& others)
-  {
-    this->Scalars.widenRanges(first, others);
-    this->VisibilityChanged = true;
-  }
+  void widenRanges(const glm::ivec3& first, const BrickRanges& others);
 
   /// Bricks of the rest volume, a side.
   const glm::ivec3& restBricks() const { return this->Scalars.ranges().count; }

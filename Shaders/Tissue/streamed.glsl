@@ -28,53 +28,69 @@ vec4 pageOf(vec3 brick)
   return textureLod(pages, (brick + 0.5) * pagesTexel, 0.0);
 }
 
+// Where a voxel lies in the atlas.
+vec3 placeInAtlas(vec4 page, vec3 fine, vec3 brick)
+{
+  vec3 slot = floor(page.xyz * 255.0 + 0.5) * SlotSideVoxels;
+  return (slot + fine - BRICK_SIDE * brick + BRICK_BORDER) * atlasTexel;
+}
+
 float scalarAt(vec3 rest)
 {
   vec3 fine = fineAt(rest);
   vec3 brick = brickOf(fine);
   vec4 page = pageOf(brick);
-  if (page.a < 0.5)
-  {
-    return textureLod(scalars, rest, 0.0).r;
-  }
-  vec3 slot = floor(page.xyz * 255.0 + 0.5) * SlotSideVoxels;
-  return textureLod(atlas, (slot + fine - BRICK_SIDE * brick + BRICK_BORDER) * atlasTexel, 0.0).r;
+  return page.a < 0.5 ? textureLod(scalars, rest, 0.0).r
+                      : textureLod(atlas, placeInAtlas(page, fine, brick), 0.0).r;
 }
 
-// Differences over one voxel to either side: of the level that is drawn there.
+vec3 gradientIn(sampler3D voxels, vec3 place, vec3 texel, vec3 away)
+{
+  vec3 alongX = vec3(texel.x, 0.0, 0.0);
+  vec3 alongY = vec3(0.0, texel.y, 0.0);
+  vec3 alongZ = vec3(0.0, 0.0, texel.z);
+  vec3 low = vec3(textureLod(voxels, place - alongX, 0.0).r,
+    textureLod(voxels, place - alongY, 0.0).r, textureLod(voxels, place - alongZ, 0.0).r);
+  vec3 high = vec3(textureLod(voxels, place + alongX, 0.0).r,
+    textureLod(voxels, place + alongY, 0.0).r, textureLod(voxels, place + alongZ, 0.0).r);
+  return differences(low, high, textureLod(voxels, place, 0.0).r, away);
+}
+
+// Differences over one voxel to either side, of the level that is drawn there. A slot's border has
+// the voxels of its neighbours.
 vec3 gradientAt(vec3 rest)
 {
-  bool isFine = pageOf(brickOf(fineAt(rest))).a >= 0.5;
-  vec3 away = isFine ? 1.0 / fineFromTexture : voxel;
-  vec3 alongX = vec3(away.x, 0.0, 0.0);
-  vec3 alongY = vec3(0.0, away.y, 0.0);
-  vec3 alongZ = vec3(0.0, 0.0, away.z);
-  vec3 low = vec3(scalarAt(rest - alongX), scalarAt(rest - alongY), scalarAt(rest - alongZ));
-  vec3 high = vec3(scalarAt(rest + alongX), scalarAt(rest + alongY), scalarAt(rest + alongZ));
-  return differences(low, high, scalarAt(rest), away);
+  vec3 fine = fineAt(rest);
+  vec3 brick = brickOf(fine);
+  vec4 page = pageOf(brick);
+  return page.a < 0.5
+    ? gradientIn(scalars, rest, voxel, voxel)
+    : gradientIn(atlas, placeInAtlas(page, fine, brick), atlasTexel, 1.0 / fineFromTexture);
 }
 
 #ifdef WISHES
 // Each pixel names one brick that its ray saw and that is not there, and one that is: not always
-// the first, so that pixels side by side name others. A place up to a voxel beside the sample is
-// looked at, because the finer voxels of the brick beside may be visible, too.
+// the first, so that pixels side by side name others. Up to a voxel from a brick's face the brick
+// beyond it is looked at, because its finer voxels may be visible, too: at edges and corners each
+// pixel looks across other faces.
 uniform ivec2 wishSeed; // another one for each picture
 uniform vec3 wishReach; // one of the volume's own voxels, voxels of the finer level
 
 const int WishRanks = 16;
 
 ivec2 wishPixel = ivec2(gl_FragCoord.xy);
-int wishCorner = (3 * wishPixel.x + 8 * wishPixel.y + wishSeed.y) & (WishRanks - 1);
-vec3 wishShift = wishCorner >= 8 ? vec3(0.0)
-                                 : wishReach *
-    (2.0 * vec3(float(wishCorner & 1), float(wishCorner >> 1 & 1), float(wishCorner >> 2)) - 1.0);
+int wishFaces = (3 * wishPixel.x + 5 * wishPixel.y + wishSeed.y) & 7;
+vec3 wishShift =
+  wishReach * vec3(float(wishFaces & 1), float(wishFaces >> 1 & 1), float(wishFaces >> 2));
 ivec2 wishesLeft = ivec2((5 * wishPixel.x + 11 * wishPixel.y + wishSeed.x) & (WishRanks - 1));
 vec2 wishes = vec2(-1.0); // numbers of bricks: not there, there
 vec3 lastAsked = vec3(-1.0);
 
 void askForBrick(vec3 rest)
 {
-  vec3 brick = brickOf(clamp(fineAt(rest) + wishShift, vec3(0.0), fineVoxels));
+  vec3 fine = fineAt(rest);
+  vec3 towardsFace = step(0.5, fract(fine / BRICK_SIDE)) * 2.0 - 1.0;
+  vec3 brick = brickOf(clamp(fine + towardsFace * wishShift, vec3(0.0), fineVoxels));
   if (brick == lastAsked)
   {
     return;

@@ -10,6 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 using namespace brainshift;
@@ -62,6 +63,31 @@ TEST(PageTable, LeadsToTheSlotOfEachBrick)
   }
 }
 
+TEST(PageTable, NamesTheLayersThatChanged)
+{
+  PageTable table;
+  table.reset({ 5, 4, 6 }, { 3, 2, 2 });
+  EXPECT_EQ(table.takeChangedLayers(), glm::ivec2(0, 6));
+  std::mt19937 random(43);
+  std::vector<std::uint8_t> sent = table.texels();
+  for (int view = 1; view <= 100; ++view)
+  {
+    for (int i = 0; i < 2; ++i)
+    {
+      const int brick = static_cast<int>(random() % 120);
+      if (table.slotOf(brick) == PageTable::None)
+      {
+        table.take(brick, view);
+      }
+    }
+    const glm::ivec2 layers = table.takeChangedLayers();
+    std::copy(table.texels().begin() + 80 * layers.x, table.texels().begin() + 80 * layers.y,
+      sent.begin() + 80 * layers.x);
+    ASSERT_EQ(sent, table.texels()) << "view " << view;
+  }
+  EXPECT_EQ(table.takeChangedLayers(), glm::ivec2(0)) << "nothing since";
+}
+
 TEST(PageTable, TakesFromBricksThatWereNotSeenForLongest)
 {
   PageTable table;
@@ -78,6 +104,7 @@ TEST(PageTable, TakesFromBricksThatWereNotSeenForLongest)
   EXPECT_EQ(table.slotOf(2), PageTable::None);
   EXPECT_NE(table.slotOf(0), PageTable::None);
   EXPECT_EQ(table.take(5, 3), PageTable::None) << "the view keeps what it has";
+  EXPECT_EQ(table.take(5, 2), PageTable::None) << "what an earlier view asked for takes nothing";
   EXPECT_EQ(table.room(3), 0);
   EXPECT_EQ(table.count(), 3);
 }

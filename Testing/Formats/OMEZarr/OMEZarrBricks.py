@@ -79,7 +79,7 @@ class Shown:
         for name, value in named.items():
             setattr(self.display, name, value)
         with messages():  # unknown sides
-            picture(self.view)
+            self.view.SMProxy.StillRender()
         plane = vtkPlane()
         plane.SetOrigin(48.0, 56.0, 66.0)
         plane.SetNormal(-0.05, 0.1, -1.0)
@@ -195,7 +195,9 @@ def test_little_memory():
     need = sum(state[name] for name in ("gpuScalarBytes", "gpuOtherBytes")) / 2 ** 20
     all_bricks = state["gpuBricks"]
     shown.display.MemoryLimit = need - 0.4 * all_bricks * 34 ** 3 * 4 / 2 ** 20
-    part, state = shown.detail()
+    with messages() as said:
+        part, state = shown.detail()
+    assert_says(said.text, "saved", "no memory", "Memory Limit")
     assert 8 <= state["gpuBricks"] < all_bricks, (state, all_bricks)
     assert state["gpuBricksLackRoom"] == 1, state
     assert 0 < differences(part, full)[1], "some of it is coarse"
@@ -229,7 +231,7 @@ def test_bent_while_it_loads():
     for i in range(4):
         strokes += list(brainshift.soft((30.0 + 10 * i, 56.0, 40.0), (0, 0, 3), 14.0))
         filter.Strokes = strokes
-        picture(shown.view)
+        shown.view.SMProxy.StillRender()
     image, state = shown.detail()
     uploads = brainshift.counters(shown.display)["volumeUploads"]
     again = Shown(simple.FreeFormDeformation(Input=coarse(path), Strokes=strokes))
@@ -254,7 +256,7 @@ def test_another_level_while_bricks_arrive():
     for former in (8, 0):
         shown = Shown(source)
         for _ in range(former):
-            picture(shown.view)  # bricks of the finest level are on their way
+            shown.view.SMProxy.StillRender()  # bricks of the finest level are on their way
         away = numpy.array(shown.view.CameraPosition) - MIDDLE
         shown.view.CameraPosition = list(MIDDLE + 6.5 * away)
         image, state = shown.detail()
@@ -284,6 +286,49 @@ def test_pictures_that_ask_for_nothing_are_complete():
     assert state["gpuBricks"] > 8, state
     shown.display.CountSamples = 1
     assert numpy.array_equal(picture(shown.view), image)
+    shown.close()
+
+
+def test_a_saved_picture_is_complete():
+    """Of any size, although nobody waited for the bricks."""
+    path = store()
+    shown = Shown(coarse(path), size=120)
+    image = picture(shown.view)
+    state = brainshift.gpu(shown.display)
+    assert state["gpuBricksWanted"] == 0 and state["gpuBricks"] > 8, state
+    assert numpy.array_equal(shown.detail()[0], image)
+    larger = []
+    for name in ("first.png", "again.png"):
+        file = os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], name)
+        assert simple.SaveScreenshot(file, shown.view, ImageResolution=[260, 260])
+        with open(file, "rb") as stream:
+            larger.append(stream.read())
+    assert larger[0] == larger[1], "the first one waited for its bricks"
+    shown.close()
+
+
+def test_stereo_comes_to_an_end():
+    """Each eye asks for its own bricks, and both keep them."""
+    shown = Shown(coarse(store()), size=120)
+    flat, _ = shown.detail()
+    shown.view.StereoType = "Red-Blue"
+    shown.view.StereoRender = 1
+    image, state = shown.detail(seconds=30)
+    assert state["gpuBricksWanted"] == 0 and state["gpuBricksLackRoom"] == 0, state
+    assert not numpy.array_equal(image, flat)
+    frames = brainshift.counters(shown.display)["frames"]
+    assert brainshift.draw_detail(shown.view, shown.display)["gpuBricksWanted"] == 0
+    assert brainshift.counters(shown.display)["frames"] <= frames + 2, "one picture of each eye"
+    shown.close()
+
+
+def test_bricks_come_in_few_pictures():
+    """A picture of each few bricks took most of the time."""
+    shown = Shown(coarse(store()), size=120)
+    frames = brainshift.counters(shown.display)["frames"]
+    _, state = shown.detail()
+    drawn = brainshift.counters(shown.display)["frames"] - frames
+    assert state["gpuBricks"] > 8 and drawn <= 9, (state, drawn)
     shown.close()
 
 
