@@ -102,12 +102,15 @@ public:
   static void add(const SampleRow& row, const Taps& taps, const float* force);
 
   /**
-   * Calls visit(row) for each row of samples, slabs on several cores, and returns the forces.
+   * Calls visit(row) for each row with samples, slabs on several cores, and returns the forces.
    *
    * @param displacements   of the control points, mm along the grid's axes
+   * @param hasSamples      of (j, k): whether the row has some
+   * @param visit           whether it added to the row's sums
    */
-  template <typename Visit>
-  ControlForces visitRows(const std::vector<glm::vec3>& displacements, const Visit& visit) const
+  template <typename HasSamples, typename Visit>
+  ControlForces visitRows(const std::vector<glm::vec3>& displacements, const HasSamples& hasSamples,
+    const Visit& visit) const
   {
     std::vector<float> slabs(this->slabNumbers() * this->Samples.dimensions.z, 0.0f);
     parallelFor(0, this->Samples.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
@@ -120,6 +123,10 @@ public:
         float* slabSums = &slabs[this->slabNumbers() * k];
         for (int j = 0; j < this->Samples.dimensions.y; ++j)
         {
+          if (!hasSamples(j, k))
+          {
+            continue;
+          }
           this->blendRow(slab, j, k, controls);
           sums.assign(controls.size() * ForceNumbers, 0.0f);
           if (visit(SampleRow{ j, k, controls.data(), sums.data() }))

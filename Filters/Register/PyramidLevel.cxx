@@ -275,11 +275,11 @@ double boxVolume(const Grid& grid)
   return sides.x * sides.y * sides.z;
 }
 
-// The reference on a grid, smoothly continued beyond its fan: a mean of what lies inside, by a
-// Gaussian as for any volume, then by boxes as far as descriptors reach.
-Volume filledAround(const Volume& reference, const Mask& fan, double spacingMm, const Grid& to)
+// The reference on a grid, smoothly continued beyond what is known of it: a mean of what lies
+// inside, by a Gaussian as for any volume, then by boxes as far as descriptors reach.
+Volume filledAround(const Volume& reference, const Region& known, double spacingMm, const Grid& to)
 {
-  Volume inside = weightsOf(reference.grid, { nullptr, &fan, nullptr }, {});
+  Volume inside = weightsOf(reference.grid, known, {});
   Volume values = reference;
   for (std::size_t i = 0; i < values.values.size(); ++i)
   {
@@ -287,7 +287,7 @@ Volume filledAround(const Volume& reference, const Mask& fan, double spacingMm, 
   }
   values = sampled(values, spacingMm, to);
   inside = sampled(inside, spacingMm, to);
-  constexpr float Known = 0.25f; // of the weight: the mean is of what lies nearby
+  constexpr float Enough = 0.25f; // of the weight: the mean is of what lies nearby
   Volume result = values;
   std::vector<char> open(result.values.size(), 1);
   for (const int radius : { 0, 1, 2, 4, 8 })
@@ -298,7 +298,7 @@ Volume filledAround(const Volume& reference, const Mask& fan, double spacingMm, 
     boxSum(weights, glm::ivec3(radius));
     for (std::size_t i = 0; i < open.size(); ++i)
     {
-      if (open[i] && weights.values[i] > Known)
+      if (open[i] && weights.values[i] > Enough)
       {
         result.values[i] = sums.values[i] / weights.values[i];
         open[i] = 0;
@@ -376,7 +376,7 @@ PyramidLevel::PyramidLevel(const RegisteredPair& pair, const ComparedRegion& reg
   , Fan(region.fan())
   , Beam(region.beam())
   , Compares(level.metric)
-  , IsQuick(level.isQuick)
+  , Taken(level.part)
   , SpacingMm(region.spacingMm(level))
   , Samples(region.grid(level))
   , Over(lattice)
@@ -403,10 +403,13 @@ void PyramidLevel::readRest()
   this->Volumes.rest = sampled(this->Pair.rest, this->SpacingMm, this->Samples);
 }
 
+// What a cavity holds has no part in the means over all of the reference, such as the noise.
 void PyramidLevel::readReference()
 {
+  const Region known{ nullptr, this->Fan,
+    { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } };
   this->Volumes.reference = this->Fan
-    ? filledAround(this->Pair.reference, *this->Fan, this->SpacingMm, this->Samples)
+    ? filledAround(this->Pair.reference, known, this->SpacingMm, this->Samples)
     : sampled(this->Pair.reference, this->SpacingMm, this->Samples);
 }
 
@@ -442,12 +445,12 @@ void PyramidLevel::makeComparison()
 {
   this->Volumes.beam = this->Beam;
   this->Compared = this->Compares->make(std::move(this->Volumes), this->Over);
-  this->Compared->setQuick(this->IsQuick);
+  this->Compared->take(this->Taken);
 }
 
 void PyramidLevel::become(const RefinementLevel& level)
 {
-  this->Compared->setQuick(level.isQuick);
+  this->Compared->take(level.part);
   this->IsPrepared = false;
 }
 

@@ -84,7 +84,10 @@ private:
 class PyramidLevel
 {
 public:
-  /** @param pair   lives longer than the level */
+  /**
+   * @param pair      lives until the level is prepared, and so does the region
+   * @param lattice   the same
+   */
   PyramidLevel(const RegisteredPair& pair, const ComparedRegion& region,
     const RefinementLevel& level, const Lattice& lattice);
 
@@ -122,7 +125,7 @@ private:
   const Mask* Fan;
   glm::dvec3 Beam;
   const Metric* Compares;
-  bool IsQuick;
+  Part Taken; // of its metric
   double SpacingMm;
   Grid Samples;
   const Lattice& Over;

@@ -221,7 +221,10 @@ void Refinement::finishLevel()
   {
     this->State.progress.isFinished = true;
     this->State.progress.level = this->LastUsed;
-    this->Level = nullptr;
+    if (!this->level().isComparedLike(this->Settings.plan.check.halves))
+    {
+      this->Level = nullptr;
+    }
     return;
   }
   if (this->level().isComparedLike(levels[next])) // most of it is prepared

@@ -47,6 +47,9 @@ public:
   /** Hands the volumes back, once it is finished. */
   RegisteredPair takePair() { return std::move(this->Pair); }
 
+  /** The last level, once it is finished, if the check of the result compares alike; or null. */
+  std::unique_ptr<PyramidLevel> takeLevel() { return std::move(this->Level); }
+
   /** Bytes that a refinement takes beside the volumes themselves. */
   static double bytes(const Grid& rest, const Grid& reference, const Grid& lattice,
     const RefinementSettings& settings);

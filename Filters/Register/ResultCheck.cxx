@@ -18,13 +18,19 @@ constexpr double LeastOfHalf = 200.0;  // samples
 constexpr double Finer = 0.5;          // times the spacing, if there are too few samples
 }
 
-ResultCheck::ResultCheck(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan)
+ResultCheck::ResultCheck(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan,
+  std::unique_ptr<PyramidLevel> level)
   : Pair(std::move(pair))
   , Plan(plan)
   , Region(Pair, plan)
   , Result(result)
   , Now(plan.check.halves)
+  , Level(std::move(level))
 {
+  if (this->Level)
+  {
+    this->Level->become(this->Now);
+  }
   this->Run = this->Now.metric ? 0 : Runs;
 }
 
@@ -253,6 +259,11 @@ void ResultCheck::goTo(int run)
   {
     this->Level = nullptr; // another metric, or the end
     this->Now = this->wanted();
+  }
+  else if (run == HalfRuns)
+  {
+    this->Now.part = Part::Quickest; // of a search
+    this->Level->become(this->Now);
   }
   this->Step = nullptr;
   this->State = nullptr;

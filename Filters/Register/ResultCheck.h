@@ -38,8 +38,10 @@ public:
   /**
    * @param pair     both volumes, the reference in its position
    * @param result   the deformation, over the volume's box
+   * @param level    one that is compared like the halves, which saves its preparation; or null
    */
-  ResultCheck(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan);
+  ResultCheck(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan,
+    std::unique_ptr<PyramidLevel> level = nullptr);
   ~ResultCheck();
 
   /** Compares once, or prepares a part of that. False: it is finished. */

@@ -118,6 +118,7 @@ void readNumbers(const float* values, const Neighbours& at, Numbers numbers, flo
 std::vector<float> LevelSamples::read(const std::vector<float>& values, int numbers) const
 {
   constexpr std::integral_constant<int, 12> OfSelfSimilarity;
+  constexpr std::integral_constant<int, 24> OfItWithEdges;
   const Grid& grid = this->rows.samples();
   std::vector<float> result(values.size());
   const glm::vec3 last(grid.dimensions - 1);
@@ -126,8 +127,7 @@ std::vector<float> LevelSamples::read(const std::vector<float>& values, int numb
     {
       for (int j = 0; j < grid.dimensions.y; ++j)
       {
-        const Stretch& counting =
-          this->stretches[static_cast<std::size_t>(k) * grid.dimensions.y + j];
+        const Stretch& counting = this->stretchOf(j, k);
         for (int i = counting.first; i < counting.last; ++i)
         {
           const std::size_t number = grid.offset(i, j, k);
@@ -138,8 +138,9 @@ std::vector<float> LevelSamples::read(const std::vector<float>& values, int numb
           const Neighbours at = neighboursOf(
             grid.dimensions, glm::clamp(this->rows.position(i, j, k), glm::vec3(0.0f), last));
           float* to = &result[number * numbers];
-          numbers == OfSelfSimilarity ? readNumbers(values.data(), at, OfSelfSimilarity, to)
-                                      : readNumbers(values.data(), at, numbers, to);
+          numbers == OfItWithEdges        ? readNumbers(values.data(), at, OfItWithEdges, to)
+            : numbers == OfSelfSimilarity ? readNumbers(values.data(), at, OfSelfSimilarity, to)
+                                          : readNumbers(values.data(), at, numbers, to);
         }
       }
     }

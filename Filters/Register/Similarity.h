@@ -82,6 +82,21 @@ struct LevelSamples
 
   double possible = 0.0; ///< number of samples that count
 
+  const Stretch& stretchOf(int j, int k) const
+  {
+    return this->stretches[static_cast<std::size_t>(k) * this->rows.samples().dimensions.y + j];
+  }
+
+  /** LatticeRows::visitRows for the rows with samples that count. */
+  template <typename Visit>
+  ControlForces visitRows(const std::vector<glm::vec3>& displacements, const Visit& visit) const
+  {
+    const auto hasSamples = [this](int j, int k) {
+      return this->stretchOf(j, k).first < this->stretchOf(j, k).last;
+    };
+    return this->rows.visitRows(displacements, hasSamples, visit);
+  }
+
   /** Finds `stretches` and `possible` from the weights. */
   void findStretches();
 
@@ -139,6 +154,14 @@ private:
 BRAINSHIFT_DEFORMATION_EXPORT CostAndForces averaged(
   const std::vector<double>& rowSums, const std::vector<double>& rowWeights, ControlForces forces);
 
+/** How much of a metric a comparison takes. Without quicker parts they are alike. */
+enum class Part
+{
+  All,
+  Quick,   ///< its quicker part
+  Quickest ///< that by fewer samples
+};
+
 /** The comparison of the two volumes of one level. */
 class Comparison
 {
@@ -154,11 +177,8 @@ public:
   /** Compares only samples whose position at rest is in the half; once it is prepared. */
   virtual void restrictTo(const HalfSpace& half) = 0;
 
-  /**
-   * Whether it compares by a quicker part of its metric, for a search. Without a quicker part it
-   * makes no difference. Afterwards prepare() may have more to do.
-   */
-  virtual void setQuick(bool /*isQuick*/) {}
+  /** Compares by a part of its metric. Afterwards prepare() may have more to do. */
+  virtual void take(Part /*part*/) {}
 };
 
 /** A method of comparison. */
@@ -201,9 +221,9 @@ struct RefinementLevel
   bool isCapped = false;  ///< the spacing grows until there are at most 0.95 million samples
   int kept = 1; ///< of the positions found from several starts: the next level begins there
   double stiffness = 1.0; ///< factor on the stiffness of the plan
-  bool isQuick = false;   ///< compares by the quicker part of its metric
+  Part part = Part::All;  ///< of its metric
 
-  /** Whether two levels have the same comparison, perhaps a quicker part of it. */
+  /** Whether two levels have the same comparison, perhaps another part of it. */
   bool isComparedLike(const RefinementLevel& other) const
   {
     return this->metric == other.metric && this->spacingMm == other.spacingMm &&

@@ -14,6 +14,10 @@ namespace
 // A result fails by one check alone if its figure is so many times its limit.
 constexpr double FarBeyond = 1.5;
 
+// A result is doubtful if its gain over other places nearby is less than so many times the limit
+// below which it fails.
+constexpr double DoubtfulGain = 6.0;
+
 // The least gain of mutual information by another orientation, as a fraction.
 constexpr double LeastGain = 0.1;
 
@@ -81,9 +85,9 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
       "Another similarity moves the result by " + inMm(figures.otherMm.value_or(0.0)) +
         " on average; it moves right results by up to " + inMm(limits.otherMm) + ".");
   }
-  if (figures.rivalGain && *figures.rivalGain < limits.rivalGain)
+  if (figures.rivalGain && *figures.rivalGain < DoubtfulGain * limits.rivalGain)
   {
-    verdict.lower(Trust::Failed,
+    verdict.lower(*figures.rivalGain < limits.rivalGain ? Trust::Failed : Trust::Doubtful,
       "A search from places nearby ends " + inMm(figures.rivalMm) +
         " away on average, where the volumes match " +
         (*figures.rivalGain < 0.0 ? "better." : "nearly as well.") +
@@ -138,8 +142,9 @@ std::string broughtReason(const Elsewhere& blocks)
     "makes it more exact.";
 }
 
-Verification::Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan)
-  : Check(std::move(pair), result, plan)
+Verification::Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan,
+  std::unique_ptr<PyramidLevel> level)
+  : Check(std::move(pair), result, plan, std::move(level))
   , Limits(plan.check)
   , IsOfHeads(!plan.fan)
   , Result(result)

@@ -72,8 +72,10 @@ public:
    * @param plan     with the metrics and limits of the check. The tissue within the outline
    *                 is not compared, blocks are not searched for, and orientations are not tried,
    *                 if the reference is ultrasound: a fan has too little in common with a head.
+   * @param level    Refinement::takeLevel, which saves its preparation; or null
    */
-  Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan);
+  Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan,
+    std::unique_ptr<PyramidLevel> level = nullptr);
 
   /** False: it is finished. */
   bool step();

@@ -112,7 +112,7 @@ void vtkRegistrationRun::Running::BeginChecks()
   if (this->Elastic)
   {
     this->Checks = std::make_unique<Verification>(
-      this->Elastic->takePair(), this->Elastic->lattice(), this->Plan);
+      this->Elastic->takePair(), this->Elastic->lattice(), this->Plan, this->Elastic->takeLevel());
     return;
   }
   const RigidPose motion = this->Rigid->motion();

@@ -372,18 +372,14 @@ void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements
   const LevelSamples& samples = this->Samples;
   const glm::ivec3 sides = samples.rows.samples().dimensions;
   const int numbers = work.rows.numbers;
-  samples.rows.visitRows(displacements, [&](const SampleRow& row) {
+  samples.visitRows(displacements, [&](const SampleRow& row) {
     const std::size_t first = samples.rows.samples().offset(0, row.j, row.k);
     std::vector<float> sums(static_cast<std::size_t>(sides.x) * numbers, 0.0f);
-    const LevelSamples::Stretch& stretch =
-      samples.stretches[static_cast<std::size_t>(row.k) * sides.y + row.j];
+    const LevelSamples::Stretch& stretch = samples.stretchOf(row.j, row.k);
     samples.visitStretch(row, stretch, [&](const LevelSamples::Compared& sample) {
       this->takeSample(sample, &sums[(sample.number - first) * numbers], work);
     });
-    if (stretch.first < stretch.last)
-    {
-      this->Around.gatherRow(sums.data(), sides.x, numbers, work.rows.row(row.j, row.k));
-    }
+    this->Around.gatherRow(sums.data(), sides.x, numbers, work.rows.row(row.j, row.k));
     return false;
   });
   this->Around.gather(work.rows, work.windows);
@@ -463,13 +459,8 @@ ControlForces LocalFitSimilarity::takeForces(
   const LevelSamples& samples = this->Samples;
   const Grid& grid = samples.rows.samples();
   const int numbers = work.lefts.numbers;
-  return samples.rows.visitRows(displacements, [&](const SampleRow& row) {
-    const LevelSamples::Stretch stretch =
-      samples.stretches[static_cast<std::size_t>(row.k) * grid.dimensions.y + row.j];
-    if (stretch.first >= stretch.last)
-    {
-      return false;
-    }
+  return samples.visitRows(displacements, [&](const SampleRow& row) {
+    const LevelSamples::Stretch stretch = samples.stretchOf(row.j, row.k);
     std::vector<float> lefts(static_cast<std::size_t>(grid.dimensions.x) * numbers);
     this->Around.spreadRow(work.lefts.row(row.j, row.k), grid.dimensions.x, numbers, lefts.data());
     for (int i = stretch.first; i < stretch.last; ++i)

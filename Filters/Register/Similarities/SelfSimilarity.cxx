@@ -41,11 +41,25 @@ void compare(const Volume& volume, const glm::ivec3& a, const glm::ivec3& b, Vol
         const float* fromA = row(a);
         const float* fromB = row(b);
         float* to = &sums.values[grid.offset(0, j, k)];
-        for (int i = 0; i <= last.x; ++i)
-        {
+        const auto atBorder = [&](int i) {
           const float difference =
             fromA[std::clamp(i + a.x, 0, last.x)] - fromB[std::clamp(i + b.x, 0, last.x)];
           to[i] = difference * difference;
+        };
+        const int first = std::min(-std::min({ 0, a.x, b.x }), last.x + 1);
+        const int end = std::max(last.x + 1 - std::max({ 0, a.x, b.x }), first);
+        for (int i = 0; i < first; ++i)
+        {
+          atBorder(i);
+        }
+        for (int i = first; i < end; ++i) // without limits, so that vectors of numbers are taken
+        {
+          const float difference = fromA[i + a.x] - fromB[i + b.x];
+          to[i] = difference * difference;
+        }
+        for (int i = end; i <= last.x; ++i)
+        {
+          atBorder(i);
         }
       }
     }
@@ -339,14 +353,14 @@ public:
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
   void restrictTo(const HalfSpace& half) override { this->Samples->restrictTo(half); }
-  void setQuick(bool isQuick) override { this->IsQuick = isQuick; }
+  void take(Part part) override { this->IsQuickest = part == Part::Quickest; }
 
 private:
   LevelVolumes Level; // while it is prepared
   Lattice Over;       // the same
   std::unique_ptr<LevelSamples> Samples;
   std::unique_ptr<LevelSamples> Quick; // half of them; null: there are too few
-  bool IsQuick = false;
+  bool IsQuickest = false;
   std::vector<float> Rest;       // at the samples; while it is prepared, at the points
   std::vector<float> Reference;  // at the points
   std::vector<float> Importance; // of the samples; empty: 1 everywhere
@@ -355,33 +369,33 @@ private:
 template <int Images, int OneIn>
 CostAndForces SelfSimilarity<Images, OneIn>::compare(const std::vector<glm::vec3>& displacements)
 {
-  const bool isHalf = this->IsQuick && this->Quick;
+  const bool isHalf = this->IsQuickest && this->Quick;
   const LevelSamples& samples = isHalf ? *this->Quick : *this->Samples;
   const Grid& grid = samples.rows.samples();
   std::vector<double> rowSums(samples.stretches.size(), 0.0);
   std::vector<double> rowWeights(samples.stretches.size(), 0.0);
   std::vector<double> rowCounts(samples.stretches.size(), 0.0);
-  ControlForces forces = samples.rows.visitRows(displacements, [&](const SampleRow& row) {
+  ControlForces forces = samples.visitRows(displacements, [&](const SampleRow& row) {
     const std::size_t rowNumber = static_cast<std::size_t>(row.k) * grid.dimensions.y + row.j;
-    const LevelSamples::Stretch stretch = samples.stretches[rowNumber];
-    samples.visitStretch(row, stretch, [&](const LevelSamples::Compared& sample) {
-      const float counted =
-        sample.weight * trilinear(samples.referenceWeights.values.data(), sample.at).value;
-      const float weight = Images == 2 ? counted * this->Importance[sample.number] : counted;
-      if (weight > 0.0f)
-      {
-        float sums[Sums][Lanes] = {};
-        compareNumbers<Channels>(&this->Rest[sample.number * Channels],
-          &this->Reference[sample.at.first * Channels], sample.at, sums);
-        float force[ForceNumbers];
-        rowSums[rowNumber] += weight / Images *
-          forceOf(sums, samples.stepsPerMm, weight / Images, sample.freedom, force);
-        rowWeights[rowNumber] += weight;
-        rowCounts[rowNumber] += counted;
-        LatticeRows::add(row, sample.taps, force);
-      }
-    });
-    return stretch.first < stretch.last;
+    samples.visitStretch(
+      row, samples.stretchOf(row.j, row.k), [&](const LevelSamples::Compared& sample) {
+        const float counted =
+          sample.weight * trilinear(samples.referenceWeights.values.data(), sample.at).value;
+        const float weight = Images == 2 ? counted * this->Importance[sample.number] : counted;
+        if (weight > 0.0f)
+        {
+          float sums[Sums][Lanes] = {};
+          compareNumbers<Channels>(&this->Rest[sample.number * Channels],
+            &this->Reference[sample.at.first * Channels], sample.at, sums);
+          float force[ForceNumbers];
+          rowSums[rowNumber] += weight / Images *
+            forceOf(sums, samples.stepsPerMm, weight / Images, sample.freedom, force);
+          rowWeights[rowNumber] += weight;
+          rowCounts[rowNumber] += counted;
+          LatticeRows::add(row, sample.taps, force);
+        }
+      });
+    return true;
   });
   CostAndForces result = averaged(rowSums, rowWeights, std::move(forces));
   const double factor = isHalf ? 2.0 * OneIn : OneIn; // points for each sample

@@ -51,19 +51,19 @@ public:
 
   bool prepare() override
   {
-    return this->First->prepare() && (this->IsQuick || this->Second->prepare());
+    return this->First->prepare() && (this->Taken != Part::All || this->Second->prepare());
   }
 
-  void setQuick(bool isQuick) override
+  void take(Part part) override
   {
-    this->IsQuick = isQuick;
-    this->First->setQuick(isQuick);
+    this->Taken = part;
+    this->First->take(part);
   }
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override
   {
     CostAndForces result = this->First->compare(displacements);
-    if (this->IsQuick)
+    if (this->Taken != Part::All)
     {
       return result;
     }
@@ -86,7 +86,7 @@ public:
 private:
   std::unique_ptr<Comparison> First;
   std::unique_ptr<Comparison> Second;
-  bool IsQuick = false;
+  Part Taken = Part::All;
 };
 
 const Metric Both{ Self.support, Self.bytesPerPoint + LC2.bytesPerPoint,
@@ -104,11 +104,11 @@ Similarity describeUltrasound()
                    "volumes and of their edges as the beam meets them, and LC2 of these. "
                    "The volume moves as a whole before it bends.";
   result.overlapOf = "the ultrasound fan";
-  result.plan.levels = { { &Both, SpacingMm, 1.0, true, false, KeptPositions, 1.0, true },
+  result.plan.levels = { { &Both, SpacingMm, 1.0, true, false, KeptPositions, 1.0, Part::Quickest },
     { &Both, SpacingMm, 1.0, true }, { &Both, SpacingMm } };
   result.plan.stiffness = SpeckleStiffness;
   result.plan.fan = FanLimits{};
-  result.plan.check.halves = { &Self, SpacingMm, 1.0, true };
+  result.plan.check.halves = { &Both, SpacingMm, 1.0, true, false, 1, 1.0, Part::Quick };
   result.plan.check.rivalGain = LeastRivalGain; // LC2 has its say in the result already
   return result;
 }

@@ -60,12 +60,13 @@ std::vector<glm::vec3> alongAxes(const Lattice& lattice)
 TEST(LatticeRows, ReadWhatTheCubicIs)
 {
   const Grid grid = smallGrid(20);
+  const auto everywhere = [](int, int) { return true; };
   for (const int kernel : { KernelCatmullRom, KernelBSpline })
   {
     const Lattice lattice = bulge(grid, 5.0, kernel);
     const LatticeRows rows(lattice, grid);
     const std::vector<glm::vec3> controls = alongAxes(lattice);
-    const ControlForces forces = rows.visitRows(controls, [&](const SampleRow& row) {
+    const ControlForces forces = rows.visitRows(controls, everywhere, [&](const SampleRow& row) {
       for (int i = 0; i < grid.dimensions.x; ++i)
       {
         const glm::vec3 at = rows.position(i, row.j, row.k);

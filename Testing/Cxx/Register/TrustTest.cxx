@@ -150,17 +150,19 @@ TEST(Trust, OneFigureBeyondItsLimitIsDoubtfulAndTwoFail)
   EXPECT_EQ(trust({}, {}), Trust::Unchecked);
 }
 
-TEST(Trust, APlaceNearbyThatMatchesAsWellFails)
+TEST(Trust, APlaceNearbyThatMatchesAsWellFailsOrMakesItDoubtful)
 {
   CheckPlan limits;
-  limits.rivalGain = 0.014;
+  limits.rivalGain = 0.01;
   CheckFigures figures;
   figures.halvesMm = 1.0;
   EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Good) << "the search found no other place";
-  figures.rivalGain = 0.05;
+  figures.rivalGain = 0.061;
   figures.rivalMm = 6.0;
   EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Good);
-  figures.rivalGain = 0.01;
+  figures.rivalGain = 0.059;
+  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Doubtful);
+  figures.rivalGain = 0.009;
   EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Failed);
   EXPECT_TRUE(says(verdictOf(figures, limits), "6 mm away on average"));
   EXPECT_TRUE(says(verdictOf(figures, limits), "nearly as well"));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a refinement by ultrasound finds the position through speckle, stays there, and
-// moves as a whole without energy.
+// moves as a whole without energy. And a check that goes on with its last level finds the same.
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Register/Refinement.h"
 #include "Filters/Register/RefinementSteps.h"
+#include "Filters/Register/ResultCheck.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
 #include <glm/geometric.hpp>
@@ -215,6 +216,34 @@ TEST(Ultrasound, ARigidLevelHasThreeTimesTheSteps)
     last = refinement.progress().done;
   }
   EXPECT_LE(refinement.progress().steps, 6) << "three times 2";
+}
+
+TEST(Ultrasound, ACheckThatGoesOnWithTheLastLevelFindsTheSame)
+{
+  const RefinementSettings settings = byUltrasound();
+  Refinement refinement(speckledPair(4), displacedBy({ 2.0, 0.0, 0.0 }), settings);
+  while (!refinement.progress().isFinished)
+  {
+    refinement.step();
+  }
+  std::unique_ptr<PyramidLevel> level = refinement.takeLevel();
+  ASSERT_TRUE(level);
+  const RegisteredPair pair = refinement.takePair();
+  ResultCheck quick(pair, refinement.lattice(), settings.plan, std::move(level));
+  ResultCheck whole(pair, refinement.lattice(), settings.plan);
+  int calls = 0; // that are saved
+  while (quick.step())
+  {
+    --calls;
+  }
+  while (whole.step())
+  {
+    ++calls;
+  }
+  ASSERT_TRUE(whole.figures().halvesMm);
+  EXPECT_EQ(quick.figures().halvesMm, whole.figures().halvesMm);
+  EXPECT_EQ(quick.figures().rivalGain, whole.figures().rivalGain);
+  EXPECT_GT(calls, 4);
 }
 
 TEST(RigidStep, IsTheMotionThatAllForcesAskFor)
