@@ -3,6 +3,7 @@
 
     ./brainshift bench [--quick] [--sizes 128 256 512] [--lattices 9 19 37] [--windows 512 1024]
                        [--rounds 5] [--seconds 15]
+    ./brainshift bench --volumes [FILE ...]  floors on four volumes (floors.py), and on real files
     ./brainshift bench --ultrasound      errors of Refine by ultrasound instead (ultrasound.py)
 
 It prints tables and writes bench-output/benchmark.json and a plot. The last table shows the floors
@@ -44,6 +45,7 @@ import drag  # noqa: E402
 import numpy  # noqa: E402
 from comparison import measure_comparison  # noqa: E402
 from fits import measure_fits  # noqa: E402
+from floors import measure_floors  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OCCLUSION, OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
@@ -276,6 +278,8 @@ def parse(arguments):
                                      description="Measures BrainShift beside ParaView's own.")
     parser.add_argument("--quick", action="store_true",
                         help="the reference case only, 512x512, one round: about a minute")
+    parser.add_argument("--volumes", nargs="*", metavar="FILE",
+                        help="only the floors on four made volumes, and on these files")
     parser.add_argument("--reference", type=int, nargs=3, metavar="N", default=REFERENCE,
                         help="voxels of the reference case (256 256 150)")
     parser.add_argument("--sizes", type=int, nargs="*", metavar="N",
@@ -344,6 +348,9 @@ def another_lattice(benchmark, window):
 
 def main(arguments=None):
     options = parse(arguments)
+    if options.volumes is not None:
+        measure_floors(lambda window: Report(header(window)), options).write(options.output)
+        return
     dimensions = tuple(options.reference)
     cases = [(dimensions, 19, None)] + [((size,) * 3, 19, another_size) for size in options.sizes]
     cases += [(dimensions, lattice, another_lattice)

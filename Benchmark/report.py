@@ -7,8 +7,8 @@ import platform
 
 from measure import rendering_threads
 from paraview.simple import GetParaViewSourceVersion
-from plot import plot
-from targets import TARGETS
+from plot import plot, plot_volumes
+from targets import OF_VOLUMES, TARGETS
 
 
 def header(window):
@@ -30,6 +30,9 @@ def _number(value, width, digits=1):
 
 def _ratio(above, below):
     return above / max(below, 1e-9) if above is not None and below is not None else None
+
+
+ALL_TARGETS = {**TARGETS, **OF_VOLUMES}
 
 
 class Report:
@@ -66,26 +69,43 @@ class Report:
         print(f"  {text}", flush=True)
         self.results["facts"].append({"text": text, **values})
 
-    def target(self, key, value, quiet=None, window=None):
-        """What the table of targets shows for one of them; the reference case only."""
-        target = TARGETS[key]
-        quantity = target.quantity + (f", {window}x{window}" if window else "")
+    def target(self, key, value, quiet=None, window=None, volume=None):
+        """What the table of targets shows for one of them; of the reference case or a volume."""
+        target = ALL_TARGETS[key]
+        quantity = (f"{volume}: " if volume else "") + target.quantity
+        quantity += f", {window}x{window}" if window else ""
         self.results["targets"].append({
-            "key": key, "quantity": quantity, "against": target.against, "unit": target.unit,
+            "key": key, "volume": volume, "window": window, "quantity": quantity,
+            "against": target.against, "unit": target.unit,
             "measured": value, "quiet": quiet, "least": target.least, "goal": target.goal,
             "verdict": target.verdict(value),
             "quietVerdict": None if quiet is None else target.verdict(quiet)})
 
     def targets(self):
-        order = list(TARGETS)
+        order = list(ALL_TARGETS)
         self.results["targets"].sort(key=lambda row: order.index(row["key"]))
-        print(f"\n{'quantity':<44}{'at least':>10}{'goal':>8}{'measured':>12}  {'holds':<7}"
+        print(f"\n{'quantity':<70}{'at least':>10}{'goal':>8}{'measured':>12}  {'holds':<7}"
               f"{'quiet':>9}  {'holds':<7}against")
         for row in self.results["targets"]:
-            print(f"{row['quantity']:<44}{row['least']:>10g}{row['goal']:>8g}"
+            print(f"{row['quantity']:<70}{row['least']:>10g}{row['goal']:>8g}"
                   f"{row['measured']:>9.2f}{row['unit']:<3}  {row['verdict']:<7}"
                   f"{_number(row['quiet'], 9, 2)}  {row['quietVerdict'] or '-':<7}{row['against']}",
                   flush=True)
+
+    def worst(self):
+        """Names, of each quantity, the row that is least above its floor."""
+        print("\nworst rows")
+        for key, target in ALL_TARGETS.items():
+            rows = [row for row in self.results["targets"] if row["key"] == key]
+            if rows:
+                def margin(row, target=target):
+                    value = row["measured"] if row["quiet"] is None else row["quiet"]
+                    return target.margin(value)
+
+                row = min(rows, key=margin)
+                self.fact(f"{row['quantity']}: {margin(row):.2f} times the floor",
+                          worst=key, volume=row["volume"], window=row["window"],
+                          margin=margin(row))
 
     def write(self, folder):
         os.makedirs(folder, exist_ok=True)
@@ -93,6 +113,11 @@ class Report:
         with open(file, "w", encoding="utf-8") as output:
             json.dump(self.results, output, indent=1)
         print(f"\n{file}")
+        if self.results["targets"] and self.results["targets"][0]["volume"]:
+            picture = os.path.join(folder, "floors.png")
+            plot_volumes(self.results["targets"], picture)
+            print(picture)
+            return
         picture = os.path.join(folder, "time-against-size.png")
         print(picture if plot(self.results["groups"], picture)
               else "No plot: only one size was measured")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes what is measured: the sample head, one stroke, one view, and the volumes shown in turn."""
 
+import dataclasses
 import math
 import os
 
@@ -18,8 +19,8 @@ from vtkmodules.vtkRenderingVolumeOpenGL2 import vtkOpenGLGPUVolumeRayCastMapper
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Testing", "Data")
 ARRAY = "Intensity"
-STEP = 0.5  # mm along the ray: half a voxel, our default
-COARSE_STEP = 1.0  # a voxel, VTK's default
+STEP = 0.5  # voxels along the ray: our default
+COARSE_STEP = 1.0  # voxels: VTK's default
 SAMPLES = 4  # nodes of the offset field between two control points
 AIR = 20    # of 255: below is air and noise
 
@@ -42,10 +43,11 @@ def load_plugin():
     simple.LoadPlugin(os.environ["BRAINSHIFT_PLUGIN"], remote=False, ns=vars(simple))
 
 
-def image_of(voxels):
-    """Point scalars [z, y, x] with a spacing of 1 mm from 0 0 0."""
+def image_of(voxels, spacing=(1.0, 1.0, 1.0)):
+    """Point scalars [z, y, x] from 0 0 0; spacing in mm, x first."""
     image = vtkImageData()
     image.SetDimensions(*reversed(voxels.shape))
+    image.SetSpacing(*spacing)
     scalars = numpy_to_vtk(numpy.ascontiguousarray(voxels).ravel(), deep=True)
     scalars.SetName(ARRAY)
     image.GetPointData().SetScalars(scalars)
@@ -57,14 +59,22 @@ def voxels_of(image):
     return array.reshape(tuple(reversed(image.GetDimensions())))
 
 
+def sample_voxels(name):
+    """A sample file's voxels [z, y, x] as floats, a head from 0 to 255, and its spacing (mm)."""
+    reader = simple.NIFTIVolumeReader(FileName=os.path.join(DATA, "seg3d-utah", f"{name}.nii.gz"))
+    reader.UpdatePipeline()
+    image = reader.GetClientSideObject().GetOutputDataObject(0)
+    voxels = voxels_of(image).astype(numpy.float32)
+    spacing = numpy.array(image.GetSpacing())
+    simple.Delete(reader)
+    if voxels.max() > 1.0:  # no mask
+        voxels = numpy.clip(voxels * (255.0 / numpy.percentile(voxels, 99.9)), 0, 255)
+    return voxels, spacing
+
+
 def head(dimensions):
     """The sample MRI over all of a grid of these dimensions: uint8, 1 mm."""
-    reader = simple.NIFTIVolumeReader(
-        FileName=os.path.join(DATA, "seg3d-utah", "seg3d_mr_t1.nii.gz"))
-    reader.UpdatePipeline()
-    whole = voxels_of(reader.GetClientSideObject().GetOutputDataObject(0)).astype(numpy.float32)
-    simple.Delete(reader)
-    whole = numpy.clip(whole * (255.0 / numpy.percentile(whole, 99.9)), 0, 255)
+    whole = sample_voxels("seg3d_mr_t1")[0]
     reslice = vtkImageReslice()
     reslice.SetInputData(image_of(whole))
     reslice.SetOutputExtent(0, dimensions[0] - 1, 0, dimensions[1] - 1, 0, dimensions[2] - 1)
@@ -76,6 +86,19 @@ def head(dimensions):
     return image_of(voxels_of(reslice.GetOutput()).round().astype(numpy.uint8))
 
 
+@dataclasses.dataclass
+class Volume:
+    """What a scene draws. `surface`: the scalar above which the stroke finds the skin."""
+    image: vtkImageData
+    opacities: dict
+    colors: tuple
+    surface: float
+
+
+def reference_volume(dimensions):
+    return Volume(head(dimensions), OPACITIES, COLORS, 2 * AIR)
+
+
 def _normalised(vector):
     return numpy.asarray(vector, float) / numpy.linalg.norm(vector)
 
@@ -83,10 +106,13 @@ def _normalised(vector):
 class Scene:
     """Ours, ParaView's own and a pinned stock mapper in one view; `show` picks the one drawn."""
 
-    def __init__(self, dimensions, lattice):
+    def __init__(self, dimensions, lattice, volume=None):
         self.dimensions, self.lattice = dimensions, lattice
-        self.image = head(dimensions)
-        self.centre = (numpy.array(dimensions) - 1) / 2
+        self.volume = volume or reference_volume(dimensions)
+        self.image = self.volume.image
+        self.spacing = numpy.array(self.image.GetSpacing())
+        self.centre = (numpy.array(dimensions) - 1) / 2 * self.spacing
+        self.longest = max(self.dimensions * self.spacing)
         self.edits = 0
         self.source = simple.TrivialProducer()
         self.source.GetClientSideObject().SetOutput(self.image)
@@ -115,17 +141,18 @@ class Scene:
         """Anchors the stamp in the skin that faces the eye."""
         voxels = voxels_of(self.image)
         direction = _normalised(TOWARDS_EYE)
-        for distance in numpy.arange(max(self.dimensions), 0, -0.5):
+        for distance in numpy.arange(self.longest, 0, -0.5):
             point = self.centre + distance * direction
-            index = tuple(int(round(value)) for value in reversed(point))
-            if all(0 <= i < n for i, n in zip(index, voxels.shape)) and voxels[index] > 2 * AIR:
+            index = tuple(int(round(value)) for value in reversed(point / self.spacing))
+            inside = all(0 <= i < n for i, n in zip(index, voxels.shape))
+            if inside and voxels[index] > self.volume.surface:
                 break
         self.anchor = tuple(point)
 
     def edit(self):
         """Another stroke each time, or nothing would be redone."""
         import brainshift
-        scale = max(self.dimensions) / 256.0
+        scale = self.longest / 256.0
         amount = AMOUNT * (1.0 - 0.01 * (self.edits % 10))
         self.edits += 1
         self.bent.Strokes = brainshift.stamp(self.anchor, tuple(self.centre), amount * scale,
@@ -170,7 +197,7 @@ class Scene:
         display.ScalarOpacityUnitDistance = 1.0
         color = simple.GetColorTransferFunction(ARRAY)
         color.ColorSpace = "RGB"
-        color.RGBPoints = COLORS
+        color.RGBPoints = self.volume.colors
         return display
 
     def _find_volumes(self):
@@ -190,7 +217,8 @@ class Scene:
         mapper = vtkOpenGLGPUVolumeRayCastMapper()
         mapper.SetAutoAdjustSampleDistances(False)
         mapper.SetLockSampleDistanceToInputSpacing(False)
-        mapper.SetSampleDistance(COARSE_STEP if name == "stock coarse" else STEP)
+        step = COARSE_STEP if name == "stock coarse" else STEP
+        mapper.SetSampleDistance(step * float(self.spacing.min()))
         mapper.SetImageSampleDistance(1.0)
         mapper.SetUseJittering(False)
         if name == "stock resliced":
@@ -216,7 +244,8 @@ class Scene:
         displacements = vtk_to_numpy(bent.GetFieldData().GetArray("FFDDisplacements"))
         grid = vtkImageData()
         grid.SetDimensions(*[self.lattice] * 3)
-        grid.SetSpacing(*((n - 1) / (self.lattice - 1) for n in self.dimensions))
+        grid.SetSpacing(*((n - 1) / (self.lattice - 1) * side
+                          for n, side in zip(self.dimensions, self.spacing)))
         grid.GetPointData().SetScalars(numpy_to_vtk(-displacements, deep=True))
         transform = vtkBSplineTransform()
         transform.SetCoefficientData(grid)
@@ -239,7 +268,7 @@ class Scene:
 
     def use(self, opacities, window):
         """Colour map and size of the picture (pixels) for all."""
-        points = OPACITIES[opacities]
+        points = self.volume.opacities[opacities]
         flat = []
         for scalar, opacity in zip(points[0::2], points[1::2]):
             flat += [scalar, opacity, 0.5, 0.0]

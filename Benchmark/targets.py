@@ -13,6 +13,11 @@ class Target:
     goal: float
     small_is_good: bool = False
 
+    def margin(self, value):
+        """How many times better than the floor; below 1: missed."""
+        ratio = value / self.least
+        return 1.0 / max(ratio, 1e-9) if self.small_is_good else ratio
+
     def verdict(self, value):
         sign = -1 if self.small_is_good else 1
         if sign * value >= sign * self.goal:
@@ -21,6 +26,7 @@ class Target:
 
 
 STOCK = "stock Volume as loaded, same step"
+EQUAL = "stock Volume as loaded, at the step where its error is ours"
 COARSE = "stock Volume as loaded, its default step of a voxel"
 RESLICE = "vtkImageReslice, vtkBSplineTransform, upload, stock Volume"
 
@@ -47,4 +53,19 @@ TARGETS = {
                      small_is_good=True),
     "skipping": Target("pixels that skipping changes", "no skipping", "", 0, 0,
                        small_is_good=True),
+}
+
+#: Of floors.py alone, on several volumes; the rows of the table above that it measures count, too.
+OF_VOLUMES = {
+    "error opaque": Target("error beside stock's, same step, opaque", "stock's error", "x", 1, 0.5,
+                           small_is_good=True),
+    "error translucent": Target("error beside stock's, same step, translucent", "stock's error",
+                                "x", 1, 0.5, small_is_good=True),
+    "equal error opaque": Target("steady frame at equal error, opaque", EQUAL, "x", 4, 10),
+    "equal error translucent": Target("steady frame at equal error, translucent", EQUAL, "x", 2.5,
+                                      6),
+    "occlusion opaque": Target("error of occlusion alone, opaque", "the picture's error", "x", 0.2,
+                               0.1, small_is_good=True),
+    "occlusion translucent": Target("error of occlusion alone, translucent",
+                                    "the picture's error", "x", 0.2, 0.1, small_is_good=True),
 }

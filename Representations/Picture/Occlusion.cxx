@@ -23,13 +23,16 @@ PixelBox widened(const PixelBox& box, int pixels)
   return { box.low - pixels, box.high + pixels };
 }
 
-// mm in the world. A first hit is exact to half a step, so two neighbours may seem to lean by a
-// step each.
+// mm in the world. Tissue is known to half a voxel. With longer steps a first hit is not, so two
+// neighbours may seem to lean by half a step each. Shorter steps change nothing: a picture would
+// get darker with each.
 double toleranceOf(const RayCastScene& scene)
 {
   const glm::dvec3& side = scene.frame.mmFromTexture;
+  const glm::dvec3 voxel = scene.tissue.voxel * side;
+  const double known = 0.5 * glm::min(glm::min(voxel.x, voxel.y), voxel.z);
   const double scaled = std::abs(glm::determinant(glm::dmat3(scene.frame.worldFromTexture)));
-  return scene.stepMm() * std::cbrt(scaled / (side.x * side.y * side.z));
+  return glm::max(known, 0.5 * scene.stepMm()) * std::cbrt(scaled / (side.x * side.y * side.z));
 }
 
 double depthOf(const Frustum& frustum)

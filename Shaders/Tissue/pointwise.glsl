@@ -17,6 +17,15 @@ bool colorsOfTwo(Path path, TissueTable table, Pair pair, float i, inout Seen se
   return true;
 }
 
+// Where a ray reaches HitOpacity within the step of a sample, in samples from the step's start.
+// `before`: opacity in front of it. Else a first hit in translucent tissue would depend on where
+// samples lie, and occlusion with it. Opaque tissue begins where its step begins.
+float surfaceWithin(float before, float opacity)
+{
+  float wanted = clamp((HitOpacity - before) / max(1.0 - before, 1e-6), 0.0, 1.0);
+  return clamp(wanted * (1.0 - opacity) / max(opacity * (1.0 - wanted), 1e-6), 0.0, 1.0);
+}
+
 // Adds both samples under light. `slopes`: of the offsets near them; `turn`: worldFromGradient.
 void seeTwo(Path path, Pair pair, mat3 slopes, mat3 turn, float i, vec4 one, vec4 two,
   inout Seen seen)
@@ -33,6 +42,6 @@ void seeTwo(Path path, Pair pair, mat3 slopes, mat3 turn, float i, vec4 one, vec
   Shine twoShine =
     shineOf(pair.twoDeformed, gradientOfTwo(pair), slopes, turn, path.towardsEye);
 #endif
-  see(seen, litTissue(one, pair.oneRest, oneShine), i - 0.5);
-  see(seen, litTissue(two, pair.twoRest, twoShine), i + 0.5);
+  see(seen, litTissue(one, pair.oneRest, oneShine), i - 0.5 + surfaceWithin(seen.picture.a, one.a));
+  see(seen, litTissue(two, pair.twoRest, twoShine), i + 0.5 + surfaceWithin(seen.picture.a, two.a));
 }

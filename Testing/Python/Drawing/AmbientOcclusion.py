@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that ambient occlusion is what its formula says, computed here from picked positions: none
-# on a plane, more in a groove than on a ridge, and the same after bending as after baking. A part
-# of a picture equals the whole, and pictures without occlusion stay as they were.
+# on a plane, more in a groove than on a ridge, the same after bending as after baking, and the same
+# at any step. A part of a picture equals the whole, and pictures without occlusion stay the same.
 import os
 
 import brainshift_testing as testing
@@ -25,6 +25,7 @@ RADIUS = 5.0  # mm, of occlusion
 STEP = 0.5  # mm
 WHITE = [0, 1, 1, 1, 100, 1, 1, 1]
 SURFACE = [0, 0, 0.5, 0, 40, 0, 0.5, 0, 60, 1, 0.5, 0, 100, 1, 0.5, 0]
+TRANSLUCENT = [0, 0, 0.5, 0, 40, 0, 0.5, 0, 60, 0.15, 0.5, 0, 100, 0.15, 0.5, 0]
 LEVEL = 1.0  # of 255
 STROKE = brainshift.soft((24.0, 24.0, 26.0), (0.0, 0.0, -5.0), 14.0)
 
@@ -48,11 +49,12 @@ def bumps(x, y):
 class Drawn:
     """Tissue of one colour in even light: all that changes its colour is occlusion."""
 
-    def __init__(self, source, size=120, direction=ASLANT, radius=RADIUS, **named):
+    def __init__(self, source, size=120, direction=ASLANT, radius=RADIUS, opacities=SURFACE,
+                 **named):
         self.size = size
         self.view = testing.view_along(direction, MIDDLE, DISTANCE, size=size, **named)
         testing.use_headlight(self.view)
-        self.display = testing.show_volume(source, self.view, "Deformed Volume", WHITE, SURFACE,
+        self.display = testing.show_volume(source, self.view, "Deformed Volume", WHITE, opacities,
                                            shade=True)
         self.display.Ambient, self.display.Diffuse, self.display.Specular = 1.0, 0.0, 0.0
         self.display.SampleDistance = STEP
@@ -189,6 +191,21 @@ def test_bent_as_baked():
     same, moved = abs(one - other)[both].mean(), abs(one - rest)[both].mean()
     print(f"  bent and baked differ by {same:.4f}, bent and at rest by {moved:.4f}")
     assert same < 0.01 and moved > 4 * same
+
+
+def test_the_step_changes_little():
+    bent = FreeFormDeformation(Input=volume(tissue(bumps)), Strokes=STROKE)
+    for name, opacities in (("opaque", SURFACE), ("translucent", TRANSLUCENT)):
+        drawn = Drawn(bent, opacities=opacities)
+        hidden = {}
+        for step in (STEP, STEP / 8):
+            drawn.display.SampleDistance = step
+            hidden[step], _ = drawn.hidden()
+        seen = drawn.picture(0.0) > 128
+        error = numpy.sqrt(((hidden[STEP] - hidden[STEP / 8])[seen] ** 2).mean())
+        print(f"  {name}: {hidden[STEP][seen].mean():.3f} of the light hidden, error {error:.4f}")
+        assert seen.sum() > 1000 and hidden[STEP][seen].mean() > 0.02
+        assert error < 0.01, (name, error)
 
 
 # Which pictures have it ---------------------------------------------------------------------------

@@ -6,12 +6,16 @@ import os
 import shutil
 import sys
 
+import numpy
 from brainshift_testing import run_tests, scratch
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "Benchmark"))
 import benchmark  # noqa: E402 loads the plugin
-from targets import TARGETS  # noqa: E402
+import floors  # noqa: E402
+import volumes  # noqa: E402
+from scene import voxels_of  # noqa: E402
+from targets import OF_VOLUMES, TARGETS  # noqa: E402
 
 REFERENCE, SIZE, LATTICE, WINDOWS = [24, 24, 20], 16, 5, [32, 48]
 PER_WINDOW = {"frame opaque", "frame translucent", "coarse opaque", "coarse translucent"}
@@ -53,6 +57,54 @@ def rows_of(kind, dimensions=REFERENCE, lattice=19, window=WINDOWS[0]):
              (dimensions, lattice, window)]
     assert len(found) == 1, (kind, dimensions, lattice, window, len(found))
     return found[0]["rows"]
+
+
+def run_floors(made):
+    """Of toys of these volumes alone, by the command's own arguments."""
+    folder = scratch("floors")
+    every = volumes.all_volumes
+    floors.all_volumes = lambda scale, files: {
+        name: make for name, make in every(0.1, files).items() if name in made}
+    floors.ERROR_WINDOW, floors.FINEST = 32, 0.125
+    try:
+        benchmark.main(["--volumes", "--windows", "32", "48", "--rounds", "1", "--output", folder])
+    finally:
+        floors.all_volumes = every
+    with open(os.path.join(folder, "benchmark.json"), encoding="utf-8") as file:
+        return json.load(file), os.path.join(folder, "floors.png")
+
+
+def test_floors_have_a_row_of_each_volume_and_size():
+    made = ("noisy MR", "CT")
+    results, plot = run_floors(made)
+    expected = {*OF_VOLUMES, *PER_WINDOW, "edit"}
+    assert {row["key"] for row in results["targets"]} == expected
+    for volume in made:
+        keys = [row["key"] for row in results["targets"] if row["volume"] == volume]
+        assert all(keys.count(key) == (2 if key in PER_WINDOW else 1) for key in expected), keys
+    for key in expected:
+        rows = [row for row in results["targets"] if row["key"] == key]
+        target = {**TARGETS, **OF_VOLUMES}[key]
+        margins = [target.margin(row["quiet"] or row["measured"]) for row in rows]
+        worst, = [fact for fact in results["facts"] if fact.get("worst") == key]
+        assert worst["margin"] == min(margins), (key, worst, margins)
+    with open(plot, "rb") as file:
+        assert file.read(8) == b"\x89PNG\r\n\x1a\n"
+
+
+def test_the_step_of_an_error_gives_its_time():
+    # An error that is the step, and a time of 2 ms and 3 ms a sample.
+    errors = {step: step for step in floors.STEPS}
+    time = floors.time_at(0.25, errors, {1.0: 5.0, 0.5: 8.0})
+    assert abs(time - 14.0) < 1e-9, time
+
+
+def test_volumes_are_as_noisy_as_they_say():
+    for make, air, sd in ((volumes.noisy_mr, None, 255 * volumes.RICE * (2 - numpy.pi / 2) ** 0.5),
+                          (volumes.ct, -1000, volumes.CT_NOISE)):
+        corner = voxels_of(make(0.25).image)[:8, :8, :8].astype(float)
+        assert abs(corner.std() / sd - 1.0) < 0.1, (make, corner.std(), sd)
+        assert air is None or abs(corner.mean() - air) < 2.0, corner.mean()
 
 
 def test_every_comparison_is_there():
