@@ -206,8 +206,10 @@ TissueRequest VolumeDevice::planBricks(
   GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, const MemoryNeed& need)
 {
   TissueRequest tissue = request.tissue;
-  BrickView view{ frameOf(drawn, tissue.values), request.wish.size, 0.0,
-    !request.wish.countSamples };
+  BrickView view;
+  view.frame = frameOf(drawn, tissue.values);
+  view.pixels = request.wish.size;
+  view.asks = !request.wish.countSamples;
   if (gpu.window->GetStereoRender())
   {
     view.eye = drawn.renderer->GetActiveCamera()->GetLeftEye() != 0 ? 0 : 1;

@@ -91,7 +91,11 @@ TEST(SegmentTexture, DrawsLabelsAskedForOrElseThoseThatAreMeant)
   auto labels = vtkSmartPointer<vtkUnsignedCharArray>::New();
   labels->SetName(SegmentationName);
   labels->SetNumberOfTuples(27);
-  attachSegmentation(volume, { labels, grid, { 4 } });
+  Segmentation attached;
+  attached.labels = labels;
+  attached.grid = grid;
+  attached.chosen = { 4 };
+  attachSegmentation(volume, attached);
   remark.clear();
   SegmentRequest request = requestSegment(volume, {}, remark);
   EXPECT_EQ(request.chosen, std::vector<int>{ 4 });
