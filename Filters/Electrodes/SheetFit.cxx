@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,7 @@ constexpr double FillSlope = 0.01; // weight of first differences against second
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
+using Sparse = Eigen::SparseMatrix<double>;
 
 Eigen::Vector3d eigen(const glm::dvec3& v)
 {
@@ -56,10 +58,40 @@ struct Spring
 {
   std::size_t from;
   std::size_t to;
-  double length;        // mm
-  double bentDeviation; // mm
+  std::size_t sheet;    // its number
+  glm::dvec2 along;     // mm: from one to the other on the flat sheet
+  glm::dvec2 middle;    // mm: between both there
+  double stretch;       // deviation of this one alone, a fraction of its length
   double restDeviation; // mm
+
+  double length() const { return glm::length(this->along); }
 };
+
+// The inverse covariance of what bent springs are too long (mm). Near springs stretch alike, by the
+// square of the cosine between them: those along rows say nothing of those along columns.
+Matrix stiffnessOf(const std::vector<Spring>& springs, const SheetSettings& settings)
+{
+  const auto count = static_cast<Eigen::Index>(springs.size());
+  Matrix covariance = Matrix::Zero(count, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    const Spring& a = springs[i];
+    for (Eigen::Index j = 0; j <= i; ++j)
+    {
+      const Spring& b = springs[j];
+      if (a.sheet == b.sheet)
+      {
+        const double projected = glm::dot(a.along, b.along);
+        covariance(i, j) = covariance(j, i) = projected * projected / (a.length() * b.length()) *
+          settings.strain.at(glm::distance(a.middle, b.middle));
+      }
+    }
+    const double alone = a.length() * a.stretch;
+    covariance(i, i) += alone * alone;
+  }
+  return covariance.llt().solve(Matrix::Identity(count, count)) * settings.stiffness *
+    settings.stiffness;
+}
 
 // The covariance of the shift, given that the cortex stays beyond the opening.
 class ShiftPrior
@@ -149,9 +181,10 @@ public:
   {
     for (const Sheet& sheet : sheets)
     {
-      this->addSprings(sheet);
+      this->addSprings(sheet, static_cast<std::size_t>(&sheet - sheets.data()));
       this->Measured.insert(this->Measured.end(), sheet.contacts.begin(), sheet.contacts.end());
     }
+    this->Stiffness = stiffnessOf(this->Springs, settings);
     this->Weights.assign(this->Measured.size(), 1.0);
     this->begin();
   }
@@ -232,7 +265,7 @@ private:
     this->project(this->At);
   }
 
-  void addSprings(const Sheet& sheet)
+  void addSprings(const Sheet& sheet, std::size_t number)
   {
     if (!(this->Settings.stiffness > 0.0))
     {
@@ -245,11 +278,12 @@ private:
       {
         return;
       }
-      const double length = sheet.pitchMm * glm::length(glm::dvec2(step));
       const double tissue = std::max(stretch, this->Settings.tissueStretch);
-      this->Springs.push_back({ first + row * sheet.columns + column,
-        first + to.x * sheet.columns + to.y, length, length * stretch / this->Settings.stiffness,
-        length * tissue / this->Settings.stiffness });
+      const glm::dvec2 along = sheet.pitchMm * glm::dvec2(step);
+      this->Springs.push_back(
+        { first + row * sheet.columns + column, first + to.x * sheet.columns + to.y, number, along,
+          sheet.pitchMm * glm::dvec2(row, column) + 0.5 * along, stretch,
+          glm::length(along) * tissue / this->Settings.stiffness });
     };
     for (int row = 0; row < sheet.rows; ++row)
     {
@@ -288,6 +322,19 @@ private:
     return result;
   }
 
+  // By how much bent springs are longer than they want to be (mm).
+  Vector longer(const Places& places) const
+  {
+    Vector result(this->Springs.size());
+    for (std::size_t i = 0; i < this->Springs.size(); ++i)
+    {
+      const Spring& spring = this->Springs[i];
+      result[static_cast<Eigen::Index>(i)] =
+        glm::distance(places.bent[spring.from], places.bent[spring.to]) - spring.length();
+    }
+    return result;
+  }
+
   double energy(const Places& places, const Matrix& precision) const
   {
     const Vector shift = this->shift(places);
@@ -301,15 +348,14 @@ private:
         sum += this->Weights[i] * glm::dot(away, away) / variance;
       }
     }
+    const Vector longer = this->longer(places);
+    sum += longer.dot(this->Stiffness * longer);
     for (const Spring& spring : this->Springs)
     {
-      const auto square = [](double value) { return value * value; };
-      sum +=
-        square((glm::distance(places.bent[spring.from], places.bent[spring.to]) - spring.length) /
-          spring.bentDeviation);
-      sum +=
-        square((glm::distance(places.rest[spring.from], places.rest[spring.to]) - spring.length) /
-          spring.restDeviation);
+      const double tissue =
+        (glm::distance(places.rest[spring.from], places.rest[spring.to]) - spring.length()) /
+        spring.restDeviation;
+      sum += tissue * tissue;
     }
     return sum;
   }
@@ -331,8 +377,10 @@ private:
 
   void addSprings(Matrix& h, Vector& g) const
   {
-    for (const Spring& spring : this->Springs)
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t i = 0; i < this->Springs.size(); ++i)
     {
+      const Spring& spring = this->Springs[i];
       const std::array<std::size_t, 2> ends{ spring.from, spring.to };
       const glm::dvec3 bent = this->At.bent[spring.to] - this->At.bent[spring.from];
       const glm::dvec3 rest = this->At.rest[spring.to] - this->At.rest[spring.from];
@@ -340,16 +388,17 @@ private:
       {
         continue; // no direction leads apart
       }
-      std::array<Eigen::Index, 2> bentAt{};
       std::array<Eigen::Index, 2> restAt{};
-      std::array<Vector, 2> bentBy;
       std::array<Vector, 2> restBy;
       for (int end = 0; end < 2; ++end)
       {
         const double sign = end ? 1.0 : -1.0;
         restAt[end] = PerPlace * static_cast<Eigen::Index>(ends[end]);
-        bentAt[end] = restAt[end] + AtRest;
-        bentBy[end] = eigen(glm::normalize(bent)) * sign / spring.bentDeviation;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          entries.emplace_back(static_cast<int>(i), static_cast<int>(restAt[end]) + AtRest + axis,
+            sign * bent[axis] / glm::length(bent));
+        }
         restBy[end] = Vector(AtRest);
         const std::array<glm::dvec3, 2> along = tangents(this->At.normals[ends[end]]);
         for (int k = 0; k < AtRest; ++k)
@@ -357,9 +406,13 @@ private:
           restBy[end][k] = glm::dot(along[k], glm::normalize(rest)) * sign / spring.restDeviation;
         }
       }
-      addSpring(h, g, bentAt, bentBy, (glm::length(bent) - spring.length) / spring.bentDeviation);
-      addSpring(h, g, restAt, restBy, (glm::length(rest) - spring.length) / spring.restDeviation);
+      addSpring(h, g, restAt, restBy, (glm::length(rest) - spring.length()) / spring.restDeviation);
     }
+    Sparse by(static_cast<Eigen::Index>(this->Springs.size()), h.rows());
+    by.setFromTriplets(entries.begin(), entries.end());
+    const Matrix weighted = this->Stiffness * by;
+    h += by.transpose() * weighted;
+    g += weighted.transpose() * this->longer(this->At);
   }
 
   // How the shift follows from the unknowns, to first order.
@@ -488,6 +541,7 @@ private:
   const SheetSettings& Settings;
   ShiftPrior Prior;
   std::vector<Spring> Springs;
+  Matrix Stiffness; // 1 / mm^2, of bent springs
   std::vector<std::optional<glm::dvec3>> Measured;
   std::vector<double> Weights;
   Places At;

@@ -7,12 +7,14 @@
 /// contact alone: the cortex may have slid under it. What is known: the tissue was on the cortex at
 /// rest; the shift is smooth, a Gaussian process (Process.h), and 0 beyond the opening; and the
 /// sheet bends easily but hardly stretches, so neighbours are the pitch apart along rows and
-/// columns. It may shear, as a cloth on a ball does. Unknown are, for each place of a sheet, the
+/// columns. It may shear, as a cloth on a ball does. Neighbouring parts of it stretch alike, so a
+/// missing row is as long as those beside it. Unknown are, for each place of a sheet, the
 /// bent position (3 numbers) and the position at rest on the surface (2 numbers). The sum of all
 /// squares, each over its variance, is minimised by damped Gauss-Newton steps:
 ///
 /// - measured contact minus bent position,
-/// - distance of bent neighbours minus the pitch: the stiffness of the sheet,
+/// - distance of bent neighbours minus the pitch: the stiffness of the sheet, whose strain is a
+///   smooth field and a little of each pair alone,
 /// - distance of neighbours at rest minus the pitch: tissue under it is stretched little,
 /// - bent position minus position at rest: the shift, by the covariance of the process.
 ///
@@ -52,8 +54,9 @@ struct SheetSettings
 {
   /** Factor on the stiffness of the sheets, 0 to 100: 1 is silicone; 0: they stretch freely. */
   double stiffness = 1.0;
-  double stretch = 0.05;         ///< of the sheet along rows and columns
-  double shear = 0.1;            ///< of its diagonals
+  double stretch = 0.02;         ///< of each pair of neighbours alone, along rows and columns
+  double shear = 0.1;            ///< of each diagonal alone
+  Matern strain{ 40.0, 0.05 };   ///< of the sheet, alike where it is near (mm along the flat sheet)
   double tissueStretch = 0.15;   ///< of the tissue under it: loosely, as tissue is no sheet
   double contactDeviation = 0.5; ///< of a measured contact along each axis
   double tissueDeviation = 0.2;  ///< of a contact from the smooth shift

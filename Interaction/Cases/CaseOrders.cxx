@@ -12,6 +12,7 @@
 #include <pqView.h>
 
 #include <vtkSMProxyManager.h>
+#include <vtkSMSession.h>
 #include <vtkSMUndoStackBuilder.h>
 
 #include <QCoreApplication>
@@ -21,6 +22,8 @@
 #include <QJsonDocument>
 #include <QScopedValueRollback>
 #include <QWidget>
+
+#include <algorithm>
 
 namespace brainshift
 {
@@ -189,9 +192,13 @@ void CaseOrders::refreshSoon()
 
 bool CaseOrders::isBusy() const
 {
-  if (serverManagerModel()->findItems<pqServer*>().isEmpty())
+  const QList<pqServer*> servers = serverManagerModel()->findItems<pqServer*>();
+  // A timer ends in the middle of a picture, too: asking then would update a pipeline that updates.
+  const bool isUpdating = std::any_of(servers.begin(), servers.end(),
+    [](const pqServer* server) { return server->session()->GetPendingProgress(); });
+  if (servers.isEmpty() || isUpdating)
   {
-    return true; // between two sessions
+    return true; // or between two sessions
   }
   pqPipelineSource* deformation = this->bent();
   const bool edits = deformation &&

@@ -7,9 +7,12 @@
 #include <pqUndoStack.h>
 
 #include <vtkSMViewLayoutProxy.h>
+#include <vtkSmartPointer.h>
 
 #include <QCoreApplication>
 #include <QEvent>
+
+#include <vector>
 
 namespace brainshift
 {
@@ -26,12 +29,17 @@ void pushLayouts()
 {
   SCOPED_UNDO_EXCLUDE();
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  std::vector<vtkSmartPointer<vtkSMViewLayoutProxy>> layouts; // pushing one can end other proxies
   for (pqProxy* proxy : model->findItems<pqProxy*>())
   {
     if (auto layout = vtkSMViewLayoutProxy::SafeDownCast(proxy->getProxy()))
     {
-      Opened::push(layout);
+      layouts.emplace_back(layout);
     }
+  }
+  for (vtkSMViewLayoutProxy* layout : layouts)
+  {
+    Opened::push(layout);
   }
 }
 

@@ -8,7 +8,7 @@ import uuid
 from .arguments import positive, vector
 from .casesources import (
     MARK, OPENED, RESULT, SETTING, digest_of, doubt_about_files, free_name, give_name, inputs_of,
-    kept, marks, opened, require_kind, settings_at, sources, stem, upstream, values_of)
+    kept, marks, opened, require_kind, result_name, settings_at, sources, stem, upstream, values_of)
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
 from .grids import shapes_of
@@ -613,8 +613,8 @@ class Case(Steps, Moments, TimedTraces, Resections):
         begun = [part for part in _OF_FIT if self.part(part) is None]
         values = {name: value for name, value in self._measurements().items() if value is not None}
         source = own(simple.FitDeformation(
-            registrationName=free_name("fit"), Input=bent.Input, **_shared(bent), **values,
-            **({"Base": base} if base else {})))
+            registrationName=result_name(bent.Input, "fit"), Input=bent.Input, **_shared(bent),
+            **values, **({"Base": base} if base else {})))
         source.UpdatePipeline()
         grids = self.part("at_rest")
         problem = (grids is not None and reason_of(grids)) or reason_of(source)

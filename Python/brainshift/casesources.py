@@ -55,6 +55,11 @@ def name_of(source):
     return servermanager.ProxyManager().GetProxyName("sources", source.SMProxy) or ""
 
 
+def result_name(source, what):
+    """The name of what was made of a source, as in the window: "T1 fit"."""
+    return free_name(f"{name_of(source)} {what}".strip())
+
+
 def stem(source):
     """The name of a source's file without its ending, or the name of the source."""
     for name in FILE_PROPERTIES:

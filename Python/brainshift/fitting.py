@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fits a deformation to measurements, with its uncertainty."""
 
+from .casesources import result_name
 from .files import reason_of
 from .reports import numbers
 
@@ -331,7 +332,8 @@ def _solved(deformation, arrays, pulls, pins, values):
     if base:
         values["Base"] = base
     source = own(simple.FitDeformation(
-        Input=deformation.Input, Pulls=[float(n) for pull in pulls for n in (*pull.ravel(), 1.0)],
+        registrationName=result_name(deformation.Input, "fit"), Input=deformation.Input,
+        Pulls=[float(n) for pull in pulls for n in (*pull.ravel(), 1.0)],
         Pins=[float(n) for pin in pins for n in (*pin, 1.0)], **values))
     source.UpdatePipeline()
     problem = reason_of(source)

@@ -3,7 +3,7 @@
 
 import json
 
-from .casesources import free_name, name_of
+from .casesources import result_name
 from .fitting import forget_former, is_kind, own
 from .reports import numbers
 
@@ -283,7 +283,7 @@ def _hold(bent, control_points):
     bent.Strokes = []
     if is_kind(former, "RefinedLattice"):
         forget_former(former)  # a fit stays: its figures are still to be read
-    simple.RenameSource(free_name(f"{name_of(bent.Input)} refined"), held)
+    simple.RenameSource(result_name(bent.Input, "refined"), held)
     bent.UpdatePipeline()
     bent.SMProxy.UpdatePropertyInformation()
     return held

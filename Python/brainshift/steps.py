@@ -83,8 +83,9 @@ class Steps:
             if measure is not None:
                 figures_of(measure)
                 total = measure.Input.GetDataInformation().GetNumberOfPoints()
+                mean = round(measure.Mean, 2) + 0.0  # never -0.00
                 lines.append(f"{measure.Count} of {total} {name} count, {measure.RMS:.2f} mm from "
-                             f"the cortex (RMS), {measure.Mean:+.2f} mm in the mean")
+                             f"the cortex (RMS), {mean:+.2f} mm in the mean")
         errors = self.landmark_errors()
         if errors is not None:
             lines.append(f"{len(errors.errors)} landmarks, {errors.mean:.2f} mm in the mean, "

@@ -232,8 +232,7 @@ TEST_P(SheetFitOf, PredictsContactsThatAreLeftOut)
     judge(patient, left, figures);
   }
   print(shape, "contacts", figures);
-  // A sheet that was laid before the cortex sagged does not keep its pitch on the bent cortex.
-  EXPECT_LT(figures.leftBent.mean(), shape.isLaidBefore ? 0.75 : 0.6);
+  EXPECT_LT(figures.leftBent.mean(), 0.6);
   EXPECT_LT(figures.rest.mean(), figures.restByNearest.mean());
   EXPECT_LT(figures.pitch.largest, 0.02);
   EXPECT_LT(figures.still.mean(), 0.1);
@@ -267,6 +266,29 @@ TEST_P(SheetFitOf, PredictsRowsThatAreLeftOut)
 INSTANTIATE_TEST_SUITE_P(Shapes, SheetFitOf,
   ::testing::Values(GridShape{ 8, 8, 10.0 }, GridShape{ 4, 8, 10.0 }, GridShape{ 6, 6, 5.0 },
     GridShape{ 8, 8, 10.0, true }, GridShape{ 4, 8, 10.0, true }));
+
+// A sheet that was laid before the cortex sagged stretches with it by 2 to 6 %, alike where it is
+// near. If each pair of neighbours stretched for itself, the error would be 0.98 mm.
+TEST(SheetFit, PredictsRowsOfASheetThatStretchedWithTheCortex)
+{
+  Figures figures;
+  for (unsigned number = 0; number < 5; ++number)
+  {
+    const Patient patient = Patient::any({ 8, 8, 10.0, true }, 47000 + 10 * number);
+    for (const int row : { 0, 4 })
+    {
+      std::set<int> left;
+      for (int column = 0; column < 8; ++column)
+      {
+        left.insert(row * 8 + column);
+      }
+      judge(patient, left, figures);
+    }
+  }
+  print({ 8, 8, 10.0, true }, "any rows", figures);
+  EXPECT_LT(figures.leftBent.mean(), 0.75);
+  EXPECT_LT(figures.pitch.largest, 0.02);
+}
 
 TEST(SheetFit, LeavesTheCortexBeyondTheOpening)
 {

@@ -8,6 +8,7 @@ from brainshift_testing import (assert_says, ball, load_plugin, messages, output
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift.casesources import name_of  # noqa: E402
 from paraview import simple  # noqa: E402
 from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 
@@ -61,9 +62,11 @@ def normal_miss(bent, points):
 
 def test_landmarks_give_the_rigid_part_and_leave_the_volume():
     bent = deformation()
+    simple.RenameSource("T1", bent.Input)
     rest = scattered(12)
     measured, matrix = turned(rest)
     fit = brainshift.fit(bent, rest=rest, measured=measured)
+    assert name_of(fit.filter) == "T1 fit", "as in the window"
     assert numpy.allclose(fit.rigid, matrix, atol=1e-4), fit.rigid
     probe = scattered(5, seed=2)
     assert numpy.allclose(fit.measured_from_rest(probe), turned(probe)[0], atol=1e-3)

@@ -121,6 +121,7 @@ def test_steps_say_what_they_lack_and_found():
     before = case.trace_distance.RMS
     step = case.run("Fit")
     assert step.state == "done" and case.bent.Lattice.Traces == case.traces
+    assert "sub-1_T1w fit" in names(), names()
     assert_says(step.found, "150 traced points", "mm (RMS)")
     assert_says(case.run("Measure").found, "150 of 150")
     assert case.trace_distance.RMS < 0.3 * before, (case.trace_distance.RMS, before)
