@@ -47,11 +47,11 @@ void say(const std::vector<double>& detail)
     return;
   }
   const QString drawn =
-    QString("Level %1 of the volume: %2 bricks are drawn").arg(detail[0]).arg(detail[1]);
+    QString("Level %1: %2 bricks are drawn").arg(detail[0]).arg(detail[1]);
   constexpr int shownMs = 3000;
   window->statusBar()->showMessage(detail[2] > 0
-      ? drawn + QString(", %1 are still to come").arg(detail[2])
-      : detail[3] > 0 ? drawn + "; there is no memory for more, so the rest is coarser"
+      ? drawn + QString(", %1 are to come").arg(detail[2])
+      : detail[3] > 0 ? drawn + "; memory is full, the rest is coarser"
                       : drawn,
     shownMs);
 }
