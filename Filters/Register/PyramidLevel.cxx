@@ -403,7 +403,8 @@ void PyramidLevel::readRest()
   this->Volumes.rest = sampled(this->Pair.rest, this->SpacingMm, this->Samples);
 }
 
-// What a cavity holds has no part in the means over all of the reference, such as the noise.
+// With a fan, what a cavity holds has no part in the means over all of the reference, such as the
+// noise.
 void PyramidLevel::readReference()
 {
   const Region known{ nullptr, this->Fan,

@@ -48,7 +48,10 @@ public:
   RegisteredPair takePair() { return std::move(this->Pair); }
 
   /** The last level, once it is finished, if the check of the result compares alike; or null. */
-  std::unique_ptr<PyramidLevel> takeLevel() { return std::move(this->Level); }
+  std::unique_ptr<PyramidLevel> takeLevel()
+  {
+    return this->progress().isFinished ? std::move(this->Level) : nullptr;
+  }
 
   /** Bytes that a refinement takes beside the volumes themselves. */
   static double bytes(const Grid& rest, const Grid& reference, const Grid& lattice,

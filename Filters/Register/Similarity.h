@@ -245,7 +245,7 @@ struct CheckPlan
   RefinementLevel other;  ///< rigid: another metric, which registers all of it
   /**
    * Least fraction by which any other place that a search nearby finds costs more, by the metric of
-   * the halves; 0: no search.
+   * the halves: a result below it fails, one below six times it is doubtful. 0: no search.
    */
   double rivalGain = 0.0;
   double halvesMm = 3.0; ///< mean distance of two halves

@@ -318,7 +318,7 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   if (chosen == all.end())
   {
     throw Problem("has no series \"" + this->Series + "\"; it has " + std::to_string(all.size()) +
-      ", the first is \"" + all.front().name + "\"");
+      ", the first is \"" + all.front().name + "\"; choose one of them as Series");
   }
   const DICOMFile& file = this->Folder.files[chosen->frames.front().file];
   throwIfAny(file.problem);
@@ -378,7 +378,8 @@ void DICOMVolume::readSegments(DICOMSeries chosen, VolumeHeader& header)
   if (!isNamed)
   {
     throw Problem("has no series \"" + this->Series + "\"; the segmentation \"" + chosen.name +
-      "\" has " + (layers.empty() ? "one layer" : std::to_string(layers.size()) + " layers"));
+      "\" has " + (layers.empty() ? "one layer" : std::to_string(layers.size()) + " layers") +
+      "; choose one of them as Series");
   }
   this->Segments->describe(this->Layer, header);
   if (layers.size() > 1 && !isChosen)

@@ -33,7 +33,7 @@ std::string inflated(const std::string& packed, std::size_t size, Inflate wrappi
   z_stream& stream = inflating.stream;
   if (inflateInit2(&stream, wrapping == Inflate::Raw ? -MAX_WBITS : MAX_WBITS + GzipOrZlib) != Z_OK)
   {
-    throw Problem("cannot be unpacked: zlib gets no memory");
+    throw Problem("cannot be unpacked: zlib gets no memory; close other data or programs");
   }
   std::string bytes(size, '\0');
   char surplus = 0; // where a byte too many goes, so that the end is seen

@@ -12,7 +12,8 @@ namespace brainshift
 namespace
 {
 constexpr std::string_view Advice[] = { "add", "check", "choose", "close", "convert", "copy",
-  "leave", "let", "make", "name", "open", "save", "set", "turn", "use", "write" };
+  "join", "leave", "let", "make", "name", "open", "resample", "save", "set", "turn", "unpack",
+  "use", "write" };
 
 // Whether a part of a sentence begins with a verb that tells the reader what to do.
 bool isAdvice(const std::string& part)

@@ -215,7 +215,7 @@ void heard(void* user, const Step& step)
   }
   catch (const std::exception&)
   {
-    listener.stop("needs more memory than this machine has left");
+    listener.stop("needs more memory than this machine has left; close other data or programs");
   }
 }
 
@@ -296,7 +296,7 @@ GIFTIFile readGIFTIFile(const std::vector<char>& text)
     XML_ParserCreate(nullptr));
   if (!parser)
   {
-    throw Problem("needs more memory than this machine has left");
+    throw Problem("needs more memory than this machine has left; close other data or programs");
   }
   Listener listener(parser.get(), file);
   XML_SetUserData(parser.get(), &listener);

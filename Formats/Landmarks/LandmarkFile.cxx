@@ -139,9 +139,9 @@ void writeLandmarkFile(
   const LandmarkFormat& format = knownFormatOf(fileName);
   if (format.hasOneFrame && axes.value_or(format.axes) != format.axes)
   {
-    const bool isRas = format.axes == FileAxes::RAS;
-    throw Problem("File " + fileName + " cannot be written: a file of its kind has " +
-      (isRas ? "RAS axes, not LPS" : "LPS axes, not RAS"));
+    const std::string own = format.axes == FileAxes::RAS ? "RAS" : "LPS";
+    throw Problem("File " + fileName + " cannot be written: a file " + format.endings().front() +
+      " always has " + own + " axes; choose " + own);
   }
   requirePositions(fileName, list);
   if (hasNumbers(list) && !format.holdsNumbers)

@@ -29,7 +29,7 @@ namespace brainshift
 namespace
 {
 constexpr int MostAxes = 5;
-constexpr const char* Converted = "; mincconvert -2 makes a MINC2 file of it";
+constexpr const char* Converted = "; make a MINC2 file of it by mincconvert -2";
 
 // A file that is closed when it is no longer needed.
 class OpenFile
@@ -290,7 +290,7 @@ std::vector<double> limitsNamed(int file, const char* name, std::vector<int>& di
   if (!variable)
   {
     throw Problem(joined("has no ", name,
-      ", which gives the real values of its whole numbers; minc_modify_header can add it"));
+      ", which gives the real values of its whole numbers; add it by minc_modify_header"));
   }
   dimensions = dimensionsOf(file, *variable);
   double count = 1.0;

@@ -103,8 +103,8 @@ std::vector<double> readSides(Walk& walk)
     walk.skipName();
     side = static_cast<double>(walk.number());
     throwIfAny(side > 0.0 ? ""
-                          : "has a dimension without an end (UNLIMITED); mincconvert -2 makes "
-                            "a MINC2 file of it");
+                          : "has a dimension without an end (UNLIMITED); make a MINC2 file of "
+                            "it by mincconvert -2");
   }
   return sides;
 }

@@ -171,5 +171,6 @@ void writeFiducials(std::ostream& file, FileAxes axes, LandmarkList& list)
 extern const LandmarkFormat LandmarksOfFiducials{ []() -> std::vector<std::string> {
                                                    return { ".fcsv" };
                                                  },
-  looksLikeFiducials, readFiducials, writeFiducials, FileAxes::LPS, false, false, false };
+  looksLikeFiducials, readFiducials, writeFiducials, FileAxes::LPS, /*hasOneFrame=*/false,
+  /*isUtf8=*/false, /*holdsNumbers=*/false };
 }

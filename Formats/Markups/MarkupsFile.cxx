@@ -399,5 +399,6 @@ void writeMarkups(std::ostream& file, FileAxes axes, LandmarkList& list)
 extern const LandmarkFormat LandmarksOfMarkups{ []() -> std::vector<std::string> {
                                                  return { ".mrk.json", ".json" };
                                                },
-  looksLikeMarkups, readMarkups, writeMarkups, FileAxes::LPS, false, true, false };
+  looksLikeMarkups, readMarkups, writeMarkups, FileAxes::LPS, /*hasOneFrame=*/false,
+  /*isUtf8=*/true, /*holdsNumbers=*/false };
 }

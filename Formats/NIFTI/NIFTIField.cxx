@@ -122,8 +122,8 @@ void requireIntent(const Intent& intent)
     intent.code != vtkNIFTIImageHeader::IntentVector)
   {
     throw Problem("has the intent " + std::to_string(intent.code) +
-      "; a displacement field must have 1006 (DISPVECT) or 1007 (VECTOR). If SPM wrote it, open it "
-      "with Transform Reader and choose SPM as its program");
+      "; a displacement field must have 1006 (DISPVECT) or 1007 (VECTOR). Open it with "
+      "Transform Reader, and choose SPM as its program, if SPM wrote it");
   }
   requireName(intent);
   if (mmPerNIFTIUnit(intent.xyztUnits) != 1.0)
@@ -136,8 +136,8 @@ void requireIntent(const Intent& intent)
   {
     throw Problem("is a NiftyReg transformation of type " +
       std::to_string(static_cast<int>(intent.p1)) +
-      "; it must be 0 (deformation field) or 1 (displacement field). NiftyReg's reg_transform "
-      "makes one");
+      "; it must be 0 (deformation field) or 1 (displacement field). Make one by "
+      "NiftyReg's reg_transform");
   }
 }
 

@@ -262,7 +262,8 @@ private:
       {
         names += (names.empty() ? "" : ", ") + shownWords(name);
       }
-      throw Problem("has no image '" + shownWords(this->Chosen) + "'; it has " + names);
+      throw Problem("has no image '" + shownWords(this->Chosen) + "'; it has " + names +
+        "; choose one of them as Image");
     }
     return this->Chosen.empty() ? this->Images.front() : *found;
   }
@@ -285,7 +286,7 @@ private:
     if (this->Pyramid.channel >= channels)
     {
       throw Problem("has the channels 0 to " + std::to_string(channels - 1) + "; Channel is " +
-        std::to_string(this->Pyramid.channel));
+        std::to_string(this->Pyramid.channel) + "; choose one of them");
     }
     if (this->Pyramid.channel < 0 && channels > MostChannels)
     {
@@ -310,7 +311,7 @@ private:
     if (this->Pyramid.level >= static_cast<int>(count))
     {
       throw Problem("has the levels 0 to " + std::to_string(count - 1) + "; Level is " +
-        std::to_string(this->Pyramid.level));
+        std::to_string(this->Pyramid.level) + "; choose one of them");
     }
     const double limit = this->Pyramid.limitMiB * BytesInMiB;
     std::size_t finest = 0;

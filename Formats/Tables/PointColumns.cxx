@@ -17,6 +17,7 @@ using Names = std::vector<std::string>;
 
 // What the letters of three columns mean, by their order.
 constexpr std::array<const char*, 3> Kinds{ "xyz", "ras", "lps" };
+constexpr const char* Choose = "name the three columns that count (Position Columns)";
 constexpr std::size_t Plain = 0;
 
 // Words that say nothing about the position.
@@ -261,11 +262,12 @@ void addMeanings(const Meanings& meanings, PointColumns& set)
   for (std::size_t i = 0; i < 3; ++i)
   {
     const Meaning& meaning = meanings[i];
-    throwIfAny(meaning.counted.empty() ? ""
-                                       : "has the column " + shownWords(set.names[i]) +
-          ", whose positions are counted in " + meaning.counted + "; they must be lengths");
+    throwIfAny(meaning.counted.empty()
+        ? ""
+        : "has the column " + shownWords(set.names[i]) + ", whose positions are counted in " +
+          meaning.counted + "; they must be lengths; " + Choose);
     throwIfAny(set.axes && meaning.axes && *set.axes != *meaning.axes
-        ? "has the columns " + listOf(set) + ", of which some are RAS and some LPS"
+        ? "has the columns " + listOf(set) + ", of which some are RAS and some LPS; " + Choose
         : "");
     set.axes = set.axes ? set.axes : meaning.axes;
     set.mm[i] = meaning.mm;
@@ -343,6 +345,6 @@ std::optional<PointColumns> pointColumnsIn(const Names& header, const Names& wan
     return sets.front();
   }
   throw Problem("has several positions: " + namesOf(sets[0]) + ", and " + namesOf(sets[1]) +
-    "; name the three columns that count (Position Columns)");
+    std::string("; ") + Choose);
 }
 }

@@ -416,8 +416,10 @@ void writePointTable(std::ostream& file, FileAxes axes, LandmarkList& list)
 }
 
 extern const LandmarkFormat LandmarksOfCSV{ []() -> std::vector<std::string> { return { ".csv" }; },
-  looksLikePointTable, readPointTable, writePointTable<','>, FileAxes::RAS, false, false, true };
+  looksLikePointTable, readPointTable, writePointTable<','>, FileAxes::RAS, /*hasOneFrame=*/false,
+  /*isUtf8=*/false, /*holdsNumbers=*/true };
 
 extern const LandmarkFormat LandmarksOfTSV{ []() -> std::vector<std::string> { return { ".tsv" }; },
-  looksLikePointTable, readPointTable, writePointTable<'\t'>, FileAxes::RAS, false, false, true };
+  looksLikePointTable, readPointTable, writePointTable<'\t'>, FileAxes::RAS, /*hasOneFrame=*/false,
+  /*isUtf8=*/false, /*holdsNumbers=*/true };
 }

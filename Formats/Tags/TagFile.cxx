@@ -237,7 +237,7 @@ void readTags(const std::string& text, const LandmarkChoice& choice, LandmarkLis
   if (static_cast<std::size_t>(choice.volume) > volumes)
   {
     throw Problem(
-      "has points of 1 volume; Volume is " + std::to_string(choice.volume) + " and must be 1");
+      "has points of 1 volume; Volume is " + std::to_string(choice.volume) + "; set Volume to 1");
   }
 
   Reading reading;
@@ -272,5 +272,6 @@ void writeTags(std::ostream& file, FileAxes /*axes*/, LandmarkList& list)
 extern const LandmarkFormat LandmarksOfTags{ []() -> std::vector<std::string> {
                                               return { ".tag" };
                                             },
-  looksLikeTags, readTags, writeTags, FileAxes::RAS, true, false, false };
+  looksLikeTags, readTags, writeTags, FileAxes::RAS, /*hasOneFrame=*/true,
+  /*isUtf8=*/false, /*holdsNumbers=*/false };
 }

@@ -194,11 +194,11 @@ bool CaseOrders::isBusy() const
 {
   const QList<pqServer*> servers = serverManagerModel()->findItems<pqServer*>();
   // A timer ends in the middle of a picture, too: asking then would update a pipeline that updates.
-  const bool isUpdating = std::any_of(servers.begin(), servers.end(),
-    [](const pqServer* server) { return server->session()->GetPendingProgress(); });
-  if (servers.isEmpty() || isUpdating)
+  const bool isUpdating = std::any_of(
+    servers.begin(), servers.end(), [](pqServer* server) { return server->isProgressPending(); });
+  if (servers.isEmpty() || isUpdating) // empty: between two sessions
   {
-    return true; // or between two sessions
+    return true;
   }
   pqPipelineSource* deformation = this->bent();
   const bool edits = deformation &&

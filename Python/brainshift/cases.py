@@ -613,8 +613,7 @@ class Case(Steps, Moments, TimedTraces, Resections):
         begun = [part for part in _OF_FIT if self.part(part) is None]
         values = {name: value for name, value in self._measurements().items() if value is not None}
         source = own(simple.FitDeformation(
-            registrationName=result_name(bent.Input, "fit"), Input=bent.Input, **_shared(bent),
-            **values, **({"Base": base} if base else {})))
+            Input=bent.Input, **_shared(bent), **values, **({"Base": base} if base else {})))
         source.UpdatePipeline()
         grids = self.part("at_rest")
         problem = (grids is not None and reason_of(grids)) or reason_of(source)
@@ -628,6 +627,7 @@ class Case(Steps, Moments, TimedTraces, Resections):
         source.SMProxy.SetAnnotation(self._key("fit"), "1")
         bent.Lattice = source
         forget_former(former)
+        simple.RenameSource(result_name(bent.Input, "fit"), source)
         return Fit(source)
 
     @kept

@@ -332,7 +332,7 @@ def _solved(deformation, arrays, pulls, pins, values):
     if base:
         values["Base"] = base
     source = own(simple.FitDeformation(
-        registrationName=result_name(deformation.Input, "fit"), Input=deformation.Input,
+        Input=deformation.Input,
         Pulls=[float(n) for pull in pulls for n in (*pull.ravel(), 1.0)],
         Pins=[float(n) for pin in pins for n in (*pin, 1.0)], **values))
     source.UpdatePipeline()
@@ -406,5 +406,6 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
     former = filter.Lattice
     filter.Lattice = source
     forget_former(former)
+    simple.RenameSource(result_name(filter.Input, "fit"), source)  # that of the former is free now
     simple.SetActiveSource(active)
     return Fit(source)

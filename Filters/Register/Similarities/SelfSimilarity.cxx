@@ -352,7 +352,14 @@ public:
   }
 
   CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
-  void restrictTo(const HalfSpace& half) override { this->Samples->restrictTo(half); }
+  void restrictTo(const HalfSpace& half) override
+  {
+    this->Samples->restrictTo(half);
+    if (this->Quick)
+    {
+      this->Quick->restrictTo(half);
+    }
+  }
   void take(Part part) override { this->IsQuickest = part == Part::Quickest; }
 
 private:

@@ -243,6 +243,7 @@ TEST(Ultrasound, ACheckThatGoesOnWithTheLastLevelFindsTheSame)
   ASSERT_TRUE(whole.figures().halvesMm);
   EXPECT_EQ(quick.figures().halvesMm, whole.figures().halvesMm);
   EXPECT_EQ(quick.figures().rivalGain, whole.figures().rivalGain);
+  EXPECT_EQ(quick.figures().rivalMm, whole.figures().rivalMm);
   EXPECT_GT(calls, 4);
 }
 

@@ -25,14 +25,17 @@ READERS = {"DICOMVolumeReader": (".dcm",), "NIFTIVolumeReader": (".nii", ".nii.g
            "LandmarkReader": (".csv", ".mrk.json", ".fcsv", ".tag")}
 
 
-#: The last part of a sentence that says what to do begins so.
+#: Is built only where libminc is.
+MAY_LACK = "MINCVolumeReader"
+#: The part of a sentence that says what to do begins so.
 ADVICE = re.compile(
     r"(?:; |\. )(?:choose|close|convert|copy|let|make|name|open|save|set|write) [^;.]",
     re.IGNORECASE)
 
 
-def has_way_out(sentence):
-    return bool(ADVICE.search(sentence))
+def advice_in(sentence):
+    """How often a sentence says what to do."""
+    return len(ADVICE.findall(sentence))
 
 
 def refusals(reader, ending):
@@ -52,10 +55,10 @@ def refusals(reader, ending):
 def test_each_refusal_of_a_reader_says_a_way_out():
     silent, count = [], 0
     for reader, endings in READERS.items():
-        for ending in endings:
+        for ending in endings if hasattr(simple, reader) or reader != MAY_LACK else ():
             for begin, sentence in refusals(reader, ending):
                 count += 1
-                if not has_way_out(sentence):
+                if advice_in(sentence) != 1:
                     silent.append((reader, ending, begin[:12], sentence))
     print(f"{count} refusals")
     assert count > 200 and not silent, "\n".join(map(str, silent))
@@ -71,7 +74,7 @@ def test_refusals_of_transforms_say_a_way_out():
             try:
                 brainshift.read_transform(name)
             except OSError as found:
-                if not has_way_out(str(found)):
+                if advice_in(str(found)) != 1:
                     silent.append((ending, begin[:12], str(found)))
     assert not silent, "\n".join(map(str, silent))
 

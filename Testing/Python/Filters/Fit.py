@@ -67,6 +67,8 @@ def test_landmarks_give_the_rigid_part_and_leave_the_volume():
     measured, matrix = turned(rest)
     fit = brainshift.fit(bent, rest=rest, measured=measured)
     assert name_of(fit.filter) == "T1 fit", "as in the window"
+    fit = brainshift.fit(bent, rest=rest, measured=measured)
+    assert name_of(fit.filter) == "T1 fit", "a second fit takes the place of the first"
     assert numpy.allclose(fit.rigid, matrix, atol=1e-4), fit.rigid
     probe = scattered(5, seed=2)
     assert numpy.allclose(fit.measured_from_rest(probe), turned(probe)[0], atol=1e-3)
