@@ -31,9 +31,10 @@ MANIFESTS = ("manifest.json", "manifest.csv")
 _LEAST_BYTES, _BYTES_PER_BYTE = 1.5e9, 20.0
 
 #: Figures of the table, with units.
-FIGURES = ("traced points RMS (mm)", "landmarks mean (mm)", "landmarks left out, mean (mm)",
-           "largest displacement (mm)", "smallest Jacobian determinant", "tumour before (ml)",
-           "tumour left (ml)", "left, from (ml)", "left, to (ml)")
+FIGURES = ("traced points RMS (mm)", "contacts RMS (mm)", "landmarks mean (mm)",
+           "landmarks left out, mean (mm)", "largest displacement (mm)",
+           "smallest Jacobian determinant", "tumour before (ml)", "tumour left (ml)",
+           "left, from (ml)", "left, to (ml)")
 
 _PAUSE_S = 0.2
 

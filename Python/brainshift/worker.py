@@ -25,9 +25,10 @@ def figures_of_case(case):
     bent = figures_of(case.bent)
     found = {"largest displacement (mm)": float(bent.MaximumDisplacement),
              "smallest Jacobian determinant": float(bent.MinimumJacobian)}
-    measure = case.trace_distance or case.contact_distance
-    if measure is not None:
-        found["traced points RMS (mm)"] = float(figures_of(measure).RMS)
+    for measure, name in ((case.trace_distance, "traced points"),
+                          (case.contact_distance, "contacts")):
+        if measure is not None:
+            found[f"{name} RMS (mm)"] = float(figures_of(measure).RMS)
     errors, fit = case.landmark_errors(), case.fit_source()
     if case.fits_landmarks():  # errors at these are no accuracy
         left_out = left_out_mean(Fit(fit))

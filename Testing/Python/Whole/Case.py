@@ -17,6 +17,7 @@ load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from brainshift import casesources, dock  # noqa: E402
 from brainshift.points import read_from  # noqa: E402
+from brainshift.worker import figures_of_case  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 from patient_testing import (MIDDLE, RADIUS, TOP, cap, make_patient, sunk,  # noqa: E402
                              table)
@@ -212,6 +213,7 @@ def test_electrodes_are_fitted_by_their_sheet():
     assert len(used.left_out_of_used) == 19, used.left_out_of_used
     found = case.steps[2].found
     assert_says(found, "19 contacts of grids", "G7", "above")
+    assert {name for name in figures_of_case(case) if "RMS" in name} == {"contacts RMS (mm)"}
     simple.SaveState(scratch("grid.pvsm"))
     clear()
     simple.LoadState(scratch("grid.pvsm"))
@@ -569,6 +571,8 @@ def test_a_role_is_not_made_of_what_it_makes():
     case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),
                            traces=path("pointer.csv"), electrodes=path("ecog_contacts.tsv"))
     case.fit()
+    assert {name for name in figures_of_case(case) if "RMS" in name} == {
+        "traced points RMS (mm)", "contacts RMS (mm)"}
     baked = simple.BakeDeformation(Input=case.bent)
     for role, source in (("volume", baked), ("brain", baked), ("cavity", baked),
                          ("traces", case.part("joined"))):
