@@ -311,7 +311,7 @@ void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures)
   {
     return; // it is there already, or there is no room any more
   }
-  const glm::ivec3 first = this->Table.placeOf(slot) * SlotSideVoxels;
+  const glm::ivec3 first = this->Table.positionOf(slot) * SlotSideVoxels;
   const IndexBox box{ first, first + SlotSideVoxels - 1 };
   const bool floats = !read.numbers.floats.empty();
   replaceTexels(this->Atlas,
