@@ -21,6 +21,7 @@
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -292,6 +293,8 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   {
     this->TellOnce(remark);
   }
+  std::for_each(gpu.warnings.begin(), gpu.warnings.end(),
+    [this](const std::string& warning) { warn(this, warning); });
   problem = gpu.problem;
   return drawn;
 }
@@ -512,7 +515,7 @@ const Counters& vtkDeformedVolumeMapper::CountDetail()
 {
   Counters& count = this->Internal->Count;
   count.gpuLevel = -1;
-  count.gpuBricks = count.gpuBricksWanted = 0;
+  count.gpuBricks = count.gpuBricksWanted = count.gpuBricksRead = 0;
   count.gpuBricksLackRoom = count.gpuBricksComing = 0;
   this->Internal->Devices.visitAnyhow(
     [&](const VolumeDevice& device) { device.bricks().count(count); });

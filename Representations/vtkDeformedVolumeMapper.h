@@ -123,8 +123,8 @@ public:
 
   ///@{
   /**
-   * A still picture waits for the bricks of a finer level that it shows, up to a minute: it is to
-   * be saved. The mapper is not modified by it. Default false.
+   * A still picture waits for the bricks of a finer level that it shows: it is to be saved. Its
+   * tiles, eyes and volumes wait a minute in all. The mapper is not modified by it. Default false.
    */
   void SetWaitsForDetail(bool waits) { this->WaitsForDetail = waits; }
   vtkGetMacro(WaitsForDetail, bool);

@@ -226,6 +226,7 @@ int* vtkDeformedVolumeReport::GetDetail()
   this->Detail[2] = static_cast<int>(count.gpuBricksWanted);
   this->Detail[3] = count.gpuBricksLackRoom > 0 ? 1 : 0;
   this->Detail[4] = count.gpuBricksComing > 0 ? 1 : 0;
+  this->Detail[5] = count.gpuBricksRead > 0 ? 1 : 0;
   return this->Detail;
 }
 
@@ -250,8 +251,9 @@ const char* vtkDeformedVolumeReport::GetCounters()
        << "\ngpuScalarBytes " << count.gpuScalarBytes << "\ngpuOtherBytes " << count.gpuOtherBytes
        << "\ngpuVoxelsPerTexel " << count.gpuVoxelsPerTexel << "\ngpuLevel " << count.gpuLevel
        << "\ngpuBricks " << count.gpuBricks << "\ngpuBricksWanted " << count.gpuBricksWanted
-       << "\ngpuBricksComing " << count.gpuBricksComing << "\ngpuBricksLackRoom "
-       << count.gpuBricksLackRoom << "\ngpuFieldMicroseconds " << count.gpuFieldMicroseconds;
+       << "\ngpuBricksComing " << count.gpuBricksComing << "\ngpuBricksRead " << count.gpuBricksRead
+       << "\ngpuBricksLackRoom " << count.gpuBricksLackRoom << "\ngpuFieldMicroseconds "
+       << count.gpuFieldMicroseconds;
   this->Counters = text.str();
   return this->Counters.c_str();
 }

@@ -98,12 +98,12 @@ public:
   const char* GetCounters();
 
   /**
-   * Five numbers on what a Deformed Volume draws of a finer level: the level, -1: none; bricks that
+   * Six numbers on what a Deformed Volume draws of a finer level: the level, -1: none; bricks that
    * are there; bricks that are still to come, 0: a further picture would be the same; 1 if the view
    * has more than there is room for, or 0; 1 while more are read, so that a picture a little later
-   * shows more. Nothing is drawn.
+   * shows more, or 0; 1 if bricks were read that no picture has shown, or 0. Nothing is drawn.
    */
-  int* GetDetail() VTK_SIZEHINT(5);
+  int* GetDetail() VTK_SIZEHINT(6);
 
   ///@{
   /** Of Deformed Slices, see vtkDeformedSlicesMapper. Zeros if something else is shown. */
@@ -140,7 +140,7 @@ private:
   double SameTissue[3] = {};
   double SliceNormals[9] = {};
   double VoxelSteps[3] = {};
-  int Detail[5] = {};
+  int Detail[6] = {};
   std::string Counters;
 };
 

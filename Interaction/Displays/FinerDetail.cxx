@@ -21,13 +21,15 @@
 #include <QStatusBar>
 
 #include <cstring>
+#include <utility>
 
 namespace brainshift
 {
 namespace
 {
 constexpr int EachMs = 100;    // how often it asks while bricks are read
-constexpr int AtMostMs = 1000; // without a picture while bricks are read
+constexpr int AtMostMs = 1000; // without a picture while there are bricks to show
+constexpr std::size_t DetailNumbers = 6;
 
 // Whether its volume is read from a file with levels. Others are asked nothing.
 bool hasLevels(pqDataRepresentation* display)
@@ -39,15 +41,15 @@ bool hasLevels(pqDataRepresentation* display)
     data->GetFieldDataInformation()->GetArrayInformation("OMEZarrLevel");
 }
 
-void say(const std::vector<double>& detail)
+// In the status bar. `detail`: as the report gives it.
+void showInStatusBar(const std::vector<double>& detail)
 {
   auto window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
-  if (!window || detail[0] < 0)
+  if (!window || detail.size() != DetailNumbers || detail[0] < 0)
   {
     return;
   }
-  const QString drawn =
-    QString("Level %1: %2 bricks are drawn").arg(detail[0]).arg(detail[1]);
+  const QString drawn = QString("Level %1: %2 bricks are drawn").arg(detail[0]).arg(detail[1]);
   constexpr int shownMs = 3000;
   window->statusBar()->showMessage(detail[2] > 0
       ? drawn + QString(", %1 are to come").arg(detail[2])
@@ -56,36 +58,55 @@ void say(const std::vector<double>& detail)
     shownMs);
 }
 
-enum class Detail
+std::vector<double> numbersOf(pqDataRepresentation* display)
 {
-  Complete,
-  Coming, // a picture a little later shows more
-  Drawn
-};
-
-// Draws once more if something is to come.
-Detail draw(pqDataRepresentation* display, bool isLate)
-{
-  pqView* view = display->getView();
-  if (!view || view->getProxy()->GetSession()->GetPendingProgress())
-  {
-    return view ? Detail::Coming : Detail::Complete;
-  }
   const vtkSmartPointer<vtkSMProxy> report =
     makeReport(display->getProxy(), "DeformedVolumeReport");
   pointAt(report, "Representation", display->getProxy());
-  const std::vector<double> detail = answerOf(report, "Detail");
-  if (detail.size() != 5 || detail[2] <= 0)
+  return answerOf(report, "Detail");
+}
+
+enum class Detail // in the order of haste
+{
+  Complete,
+  Reading, // a picture now would show nothing more
+  Read,    // it would show some, and a little later more
+  Ready
+};
+
+Detail detailOf(pqDataRepresentation* display)
+{
+  if (display->getView()->getProxy()->GetSession()->GetPendingProgress())
+  {
+    return Detail::Reading;
+  }
+  const std::vector<double> numbers = numbersOf(display);
+  if (numbers.size() != DetailNumbers || numbers[2] <= 0)
   {
     return Detail::Complete;
   }
-  if (detail[4] > 0 && !isLate)
+  return numbers[4] <= 0 ? Detail::Ready : numbers[5] > 0 ? Detail::Read : Detail::Reading;
+}
+
+struct HastiestDisplay // of a view
+{
+  Detail detail = Detail::Complete;
+  pqDataRepresentation* display = nullptr;
+};
+
+std::map<pqView*, HastiestDisplay> hastiestDisplays()
+{
+  std::map<pqView*, HastiestDisplay> found;
+  for (pqDataRepresentation* display : serverManagerModel()->findItems<pqDataRepresentation*>())
   {
-    return Detail::Coming;
+    const bool isAsked = display->getView() && hasLevels(display);
+    const Detail detail = isAsked ? detailOf(display) : Detail::Complete;
+    if (detail != Detail::Complete && found[display->getView()].detail < detail)
+    {
+      found[display->getView()] = { detail, display };
+    }
   }
-  view->forceRender();
-  say(answerOf(report, "Detail"));
-  return Detail::Drawn;
+  return found;
 }
 }
 
@@ -121,29 +142,30 @@ void FinerDetail::drawOn()
     this->Next.start();
     return;
   }
-  bool isLoading = false;
-  const bool isLate = this->SinceDrawn.isValid() && this->SinceDrawn.elapsed() > AtMostMs;
-  for (pqDataRepresentation* display : serverManagerModel()->findItems<pqDataRepresentation*>())
+  std::map<pqView*, QElapsedTimer> coming;
+  for (const auto& [view, hastiest] : hastiestDisplays())
   {
-    const Detail detail = hasLevels(display) ? draw(display, isLate) : Detail::Complete;
-    isLoading = isLoading || detail != Detail::Complete;
-    if (detail == Detail::Drawn)
+    const auto known = this->SinceDrawn.find(view);
+    QElapsedTimer since;
+    since.start();
+    since = known == this->SinceDrawn.end() ? since : known->second;
+    const bool isLate = since.elapsed() > AtMostMs;
+    if (hastiest.detail == Detail::Ready || (hastiest.detail == Detail::Read && isLate))
     {
-      this->SinceDrawn.start();
+      view->forceRender();
+      showInStatusBar(numbersOf(hastiest.display));
+      since.start();
     }
+    coming[view] = since;
   }
-  if (isLoading)
+  this->SinceDrawn = std::move(coming);
+  if (this->SinceDrawn.empty())
   {
-    if (!this->SinceDrawn.isValid())
-    {
-      this->SinceDrawn.start();
-    }
-    this->Next.start();
+    this->Next.stop();
   }
   else
   {
-    this->SinceDrawn.invalidate();
-    this->Next.stop();
+    this->Next.start();
   }
 }
 }

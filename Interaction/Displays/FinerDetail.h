@@ -9,6 +9,10 @@
 #include <QObject>
 #include <QTimer>
 
+#include <map>
+
+class pqView;
+
 namespace brainshift
 {
 class FinerDetail : public QObject
@@ -23,7 +27,7 @@ private:
   void drawOn();
 
   QTimer Next;
-  QElapsedTimer SinceDrawn; // or since bricks began to come; invalid: nothing comes
+  std::map<pqView*, QElapsedTimer> SinceDrawn; // views for which bricks come, or since they began
 };
 }
 

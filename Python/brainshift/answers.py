@@ -124,6 +124,7 @@ def gpu(representation):
     - `gpuBricksWanted`: bricks that are still to come, at least 1 while there may be some; 0: each
       view is complete, or has as many as its memory holds
     - `gpuBricksComing`: views that had better be drawn a little later, while bricks are read
+    - `gpuBricksRead`: bricks that were read and are in no picture yet
     - `gpuBricksLackRoom`: views with more bricks than their memory holds
     - `gpuFieldMicroseconds`: microseconds of the last computation from control points to offset
       field, or 0 if the driver does not measure it

@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 
 namespace brainshift
 {
@@ -77,7 +79,7 @@ glm::ivec3 FineGrid::bricks() const
   return (this->voxels + StreamedSide - 1) / StreamedSide;
 }
 
-glm::ivec3 FineGrid::placeOf(int brick) const
+glm::ivec3 FineGrid::positionOf(int brick) const
 {
   const glm::ivec3 side = this->bricks();
   return { brick % side.x, brick / side.x % side.y, brick / (side.x * side.y) };
@@ -144,9 +146,17 @@ void BrickLoader::order(const BrickOrder& order, const std::vector<int>& bricks)
     if (!(this->Order == order))
     {
       this->Read.clear();
+      this->Current = -1;
     }
     this->Order = order;
-    this->Wanted = bricks;
+    std::set<int> known{ this->Current };
+    for (const ReadBrick& read : this->Read)
+    {
+      known.insert(read.brick);
+    }
+    this->Wanted.clear();
+    std::copy_if(bricks.begin(), bricks.end(), std::back_inserter(this->Wanted),
+      [&](int brick) { return known.count(brick) == 0; });
     this->Next = 0;
   }
   this->Wake.notify_all();
@@ -176,6 +186,12 @@ std::int64_t BrickLoader::waiting()
       (this->Reading ? 1 : 0);
 }
 
+std::int64_t BrickLoader::countRead()
+{
+  const std::lock_guard<std::mutex> lock(this->Lock);
+  return static_cast<std::int64_t>(this->Read.size());
+}
+
 bool BrickLoader::isDone()
 {
   const std::lock_guard<std::mutex> lock(this->Lock);
@@ -194,6 +210,7 @@ bool BrickLoader::next(BrickOrder& order, int& brick)
 {
   std::unique_lock<std::mutex> lock(this->Lock);
   this->Reading = false;
+  this->Current = -1;
   this->Wake.wait(lock, [this] {
     return this->Stopped ||
       (this->Next < this->Wanted.size() && this->Read.size() < MostBricksInPicture);
@@ -204,6 +221,7 @@ bool BrickLoader::next(BrickOrder& order, int& brick)
   }
   order = this->Order;
   brick = this->Wanted[this->Next++];
+  this->Current = brick;
   this->Reading = true;
   return true;
 }
@@ -239,6 +257,7 @@ void BrickLoader::run()
     }
     read.brick = brick;
     const std::lock_guard<std::mutex> lock(this->Lock);
+    this->Current = -1;
     if (this->Order == order)
     {
       this->Read.push_back(std::move(read));
@@ -353,7 +372,7 @@ ReadBrick BrickLoader::read(const BrickOrder& order, int brick)
 {
   constexpr std::size_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
   const int side = this->Levels->blockSide(order.fine.level);
-  const glm::ivec3 place = order.fine.placeOf(brick);
+  const glm::ivec3 place = order.fine.positionOf(brick);
   const glm::ivec3 low = place * StreamedSide - SlotBorder;
   const glm::ivec3 last = order.fine.voxels - 1;
   ReadBrick read;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Reads bricks of finer levels on a thread of its own, so that no picture waits for a file.
+/// Reads bricks of finer levels on a thread of its own. Only a picture that is saved waits for it.
 #ifndef BrainShift_BrickLoader_h
 #define BrainShift_BrickLoader_h
 
@@ -27,7 +27,7 @@ struct FineGrid
   /// Bricks of StreamedSide voxels, a side.
   VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::ivec3 bricks() const;
 
-  VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::ivec3 placeOf(int brick) const;
+  VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::ivec3 positionOf(int brick) const;
 
   bool operator==(const FineGrid& other) const
   {
@@ -74,7 +74,7 @@ struct ReadBrick
   std::string remark; ///< A sentence on what is not as the file should have it; may be empty.
 };
 
-class BrickLoader
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickLoader
 {
 public:
   explicit BrickLoader(const LevelSource& source);
@@ -96,6 +96,9 @@ public:
 
   /// Bricks that are still to come, or were not taken; 1 while the headers are read.
   std::int64_t waiting();
+
+  /// Bricks that were read and not taken.
+  std::int64_t countRead();
 
   /// Whether nothing more comes before bricks are taken or ordered.
   bool isDone();
@@ -136,6 +139,7 @@ private:
   std::vector<int> Wanted;
   std::size_t Next = 0; // of Wanted
   bool Reading = false;
+  int Current = -1; // that is read now, of the order; -1: none
   std::list<ReadBrick> Read;
   std::thread Thread;
 };

@@ -58,7 +58,7 @@ int PageTable::room(std::int64_t view) const
     this->Views.begin(), this->Views.end(), [view](std::int64_t seen) { return seen < view; }));
 }
 
-glm::ivec3 PageTable::placeOf(int slot) const
+glm::ivec3 PageTable::positionOf(int slot) const
 {
   const glm::ivec3& side = this->SlotCount;
   return { slot % side.x, slot / side.x % side.y, slot / (side.x * side.y) };
@@ -67,7 +67,7 @@ glm::ivec3 PageTable::placeOf(int slot) const
 void PageTable::setTexel(int brick, int slot)
 {
   this->Slots[brick] = slot;
-  const glm::ivec3 place = slot == None ? glm::ivec3(0) : this->placeOf(slot);
+  const glm::ivec3 place = slot == None ? glm::ivec3(0) : this->positionOf(slot);
   std::uint8_t* texel = &this->Texels[4 * static_cast<std::size_t>(brick)];
   for (int axis = 0; axis < 3; ++axis)
   {

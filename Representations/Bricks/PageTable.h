@@ -46,7 +46,7 @@ public:
   int capacity() const { return static_cast<int>(this->Bricks.size()); }
 
   /// The place of a slot.
-  glm::ivec3 placeOf(int slot) const;
+  glm::ivec3 positionOf(int slot) const;
 
   ///@{
   /// A side.

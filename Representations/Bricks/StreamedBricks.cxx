@@ -21,10 +21,11 @@ constexpr double BytesInMiB = 1048576.0;
 constexpr std::int64_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
 constexpr double UsualLimitMiB = 1024.0; // where the user sets none
 constexpr int LeastSlots = 8;
-constexpr std::size_t BricksInBatch = 512; // read side by side, whichever is more urgent
-constexpr double MostBricks = 16777216.0;  // rays write their numbers as floats
-constexpr double StaysFiner = 1.3;         // times a pixel
-constexpr double MoreRoom = 1.5;           // times the former limit
+constexpr std::size_t BricksInBatch = 512;      // read side by side, whichever is more urgent
+constexpr double MostBricks = 16777216.0;       // rays write their numbers as floats
+constexpr double StaysFiner = 1.3;              // times a pixel
+constexpr double MoreRoom = 1.5;                // times the former limit
+constexpr std::chrono::seconds FileMendsIn(30); // a brick that failed is read again after that
 constexpr int QuietPictures = 2; // rays ask for one brick each, so two pictures are compared
 
 // mm, world. How wide a pixel is where the volume's box is nearest to the eye.
@@ -166,7 +167,8 @@ void StreamedBricks::forgetBricks()
 {
   this->Failed.clear();
   this->Wanted.clear();
-  this->ViewNumbers = {};
+  this->Quiet = { 0, 0 };
+  this->Full = { false, false };
   this->Changes += 1;
 }
 
@@ -183,18 +185,16 @@ void StreamedBricks::plan(GpuTask& gpu, const BrickView& view, TissueRequest& ti
     this->Source = source;
     this->Loader = source ? std::make_unique<BrickLoader>(*source) : nullptr;
   }
-  if (this->Loader && !this->Loader->problem().empty())
-  {
-    gpu.remarks.push_back(this->Loader->problem());
-  }
+  gpu.remarks.push_back(this->problem());
   this->Asks = view.asks;
+  this->Eye = view.eye;
+  this->IsOfBoth = view.isOfBoth;
   this->chooseLevel(view, tissue);
   this->Bytes = ScalarTexture::bytesOf(tissue.values.scalars, this->Order.component);
   if (!this->Level || (!this->Atlas && !this->allocate(gpu)))
   {
     return;
   }
-  this->noteView(gpu, view, tissue);
   const ValueLayout& layout = tissue.values.layout;
   const glm::dvec3 finer =
     this->Level->voxelFromTexture / glm::dvec3(layout.dimensions * layout.perTexel);
@@ -271,34 +271,24 @@ bool StreamedBricks::allocate(GpuTask& gpu)
 }
 
 // A brick that this view has used stays; where the view changes, others may take its place.
-void StreamedBricks::noteView(
-  const GpuTask& gpu, const BrickView& view, const TissueRequest& tissue)
+void StreamedBricks::beginView()
 {
-  std::vector<double> now{ static_cast<double>(view.pixels.x), static_cast<double>(view.pixels.y),
-    static_cast<double>(gpu.counters.latticeUploads),
-    static_cast<double>(tissue.property->GetMTime()) };
-  for (const glm::dmat4& matrix : { view.frame.clipFromWorld, view.frame.worldFromTexture })
-  {
-    now.insert(now.end(), &matrix[0][0], &matrix[0][0] + 16);
-  }
-  this->Eye = view.eye.value_or(0);
-  this->IsStereo = view.eye.has_value();
-  if (now != this->ViewNumbers[this->Eye])
-  {
-    this->ViewNumbers[this->Eye] = std::move(now);
-    this->View += 1;
-    this->Quiet = { 0, 0 };
-    this->Full = false;
-    this->Wanted.clear();
-    this->Failed.clear(); // the file may be whole again
-  }
+  this->View += 1;
+  this->Quiet[this->Eye] = 0;
+  this->Full[this->Eye] = false;
+  this->Wanted.clear();
+}
+
+bool StreamedBricks::asks(bool isChanged) const
+{
+  return this->Asks && (isChanged || !this->isQuiet(this->Eye));
 }
 
 void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures)
 {
   if (read.numbers.empty())
   {
-    this->Failed.insert(read.brick);
+    this->Failed[read.brick] = Clock::now() + FileMendsIn;
     return;
   }
   // A brick that an earlier view asked for is the first to go.
@@ -311,7 +301,7 @@ void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures)
   {
     return; // it is there already, or there is no room any more
   }
-  const glm::ivec3 first = this->Table.placeOf(slot) * SlotSideVoxels;
+  const glm::ivec3 first = this->Table.positionOf(slot) * SlotSideVoxels;
   const IndexBox box{ first, first + SlotSideVoxels - 1 };
   const bool floats = !read.numbers.floats.empty();
   replaceTexels(this->Atlas,
@@ -352,7 +342,7 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
   {
     this->place(read, textures);
     this->Changes += 1;
-    if (!read.remark.empty() && !std::exchange(this->SaidDamage, true))
+    if (!read.remark.empty() && !std::exchange(this->ReportedDamage, true))
     {
       gpu.remarks.push_back(read.remark);
     }
@@ -365,7 +355,6 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
   bricks.voxelOfTextureZero = this->Level->voxelOfTextureZero;
   bricks.seed = { 7 * this->Pictures, 3 * this->Pictures };
   bricks.changes = this->Changes;
-  bricks.asks = this->Asks && !this->isQuiet();
 }
 
 void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
@@ -400,7 +389,7 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
   this->Loader->order(this->Order, this->Wanted);
   if (!this->Wanted.empty())
   {
-    this->Quiet = { 0, 0 };
+    this->Quiet[this->Eye] = 0;
     return;
   }
   this->Quiet[this->Eye] += 1;
@@ -411,17 +400,22 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
 // chunks of the file.
 std::vector<int> StreamedBricks::inOrder(const std::map<int, int>& pixels)
 {
+  const Clock::time_point now = Clock::now();
+  const auto hasFailed = [&](int brick) {
+    const auto failed = this->Failed.find(brick);
+    return failed != this->Failed.end() && now < failed->second;
+  };
   std::vector<std::pair<int, int>> sorted;
   for (const auto& [brick, count] : pixels)
   {
-    if (this->Failed.count(brick) == 0 && this->Table.slotOf(brick) == PageTable::None)
+    if (!hasFailed(brick) && this->Table.slotOf(brick) == PageTable::None)
     {
       sorted.emplace_back(-count, brick);
     }
   }
   std::sort(sorted.begin(), sorted.end());
   const std::size_t room = this->Table.room(this->View);
-  this->Full = sorted.size() > room;
+  this->Full[this->Eye] = sorted.size() > room;
   sorted.resize(std::min(sorted.size(), room));
   std::vector<int> bricks;
   bricks.reserve(sorted.size());
@@ -438,7 +432,19 @@ std::vector<int> StreamedBricks::inOrder(const std::map<int, int>& pixels)
   return bricks;
 }
 
+// Each eye has rays of its own.
 std::int64_t StreamedBricks::wanted() const
+{
+  const int other = this->IsOfBoth ? 1 - this->Eye : this->Eye;
+  return this->wantedUntil(this->isQuiet(this->Eye) && this->isQuiet(other));
+}
+
+std::int64_t StreamedBricks::wantedByEye() const
+{
+  return this->wantedUntil(this->isQuiet(this->Eye));
+}
+
+std::int64_t StreamedBricks::wantedUntil(bool isQuiet) const
 {
   if (!this->Asks || !this->Loader || !this->Accepted || !this->Loader->problem().empty())
   {
@@ -449,14 +455,24 @@ std::int64_t StreamedBricks::wanted() const
     return 1; // a picture that knows them is to come
   }
   const std::int64_t waiting = this->Level && this->Atlas ? this->Loader->waiting() : 0;
-  const bool isSure = !this->Level || !this->Atlas || this->isQuiet();
+  const bool isSure = !this->Level || !this->Atlas || isQuiet;
   return waiting > 0 ? waiting : isSure ? 0 : 1;
 }
 
-// Each eye has rays of its own.
-bool StreamedBricks::isQuiet() const
+bool StreamedBricks::isQuiet(int eye) const
 {
-  return this->Quiet[0] >= QuietPictures && (!this->IsStereo || this->Quiet[1] >= QuietPictures);
+  return this->Quiet[eye] >= QuietPictures;
+}
+
+std::string StreamedBricks::problem() const
+{
+  return this->Loader ? this->Loader->problem() : std::string();
+}
+
+bool StreamedBricks::lacksRoom() const
+{
+  return this->Asks && this->Level && this->Atlas &&
+    (this->Full[this->Eye] || (this->IsOfBoth && this->Full[1 - this->Eye]));
 }
 
 bool StreamedBricks::isWorthAPicture() const
@@ -466,11 +482,11 @@ bool StreamedBricks::isWorthAPicture() const
 
 bool StreamedBricks::waitForMore(const Clock::time_point& end) const
 {
-  while (this->wanted() > 0 && !this->isWorthAPicture() && Clock::now() < end)
+  while (this->wantedByEye() > 0 && !this->Loader->isDone() && Clock::now() < end)
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  return this->wanted() > 0 && Clock::now() < end;
+  return this->wantedByEye() > 0 && (Clock::now() < end || this->Loader->countRead() > 0);
 }
 
 void StreamedBricks::count(Counters& counters) const
@@ -479,10 +495,11 @@ void StreamedBricks::count(Counters& counters) const
   {
     counters.gpuLevel = static_cast<std::int64_t>(this->Level->level);
     counters.gpuBricks += this->Table.count();
-    counters.gpuBricksLackRoom += this->Full ? 1 : 0;
+    counters.gpuBricksLackRoom += this->lacksRoom() ? 1 : 0;
   }
   counters.gpuBricksWanted += this->wanted();
   counters.gpuBricksComing += this->wanted() > 0 && !this->isWorthAPicture() ? 1 : 0;
+  counters.gpuBricksRead += this->Loader ? this->Loader->countRead() : 0;
 }
 
 void StreamedBricks::release(vtkWindow* window)

@@ -13,7 +13,6 @@
 #include <array>
 #include <chrono>
 #include <map>
-#include <set>
 
 namespace brainshift
 {
@@ -24,7 +23,8 @@ struct BrickView
   glm::ivec2 pixels{ 0 }; ///< Of the picture, a side.
   double limitMiB = 0.0;  ///< For the bricks; 0: as much as is usual.
   bool asks = true;       ///< Rays ask for bricks.
-  std::optional<int> eye; ///< 0 or 1 of a stereo picture.
+  int eye = 0;            ///< 1: the right one of two.
+  bool isOfBoth = false;  ///< The other eye is drawn into the same picture.
 };
 
 /// The level that suits a view: the coarsest whose voxels are no longer than a pixel is wide where
@@ -46,6 +46,13 @@ public:
   /// date; the bricks' ranges widen theirs.
   void upload(GpuTask& gpu, TissueTextures& textures, SceneBricks& bricks);
 
+  /// The view is another than that of the last picture of this eye. After upload.
+  void beginView();
+
+  /// Whether rays are to ask for bricks, after upload. `isChanged`: they may see other tissue than
+  /// in the last picture of this eye.
+  bool asks(bool isChanged) const;
+
   /// Orders what the rays of a picture asked for: for each pixel two bricks, one that is not there
   /// and one that is, or a number below 0. Empty: nothing was cast.
   void finish(const std::vector<glm::vec2>& wishes);
@@ -53,20 +60,29 @@ public:
   /// Nothing more is wanted until the next plan.
   void rest() { this->Asks = false; }
 
-  /// Bricks that this view waits for; 1 where only another picture can tell.
+  /// Bricks that this view waits for, with both eyes; 1 where only another picture can tell.
   std::int64_t wanted() const;
+
+  /// The same of the eye of the last picture alone.
+  std::int64_t wantedByEye() const;
+
+  /// The eye of the last picture: 1 for the right one of two, else 0.
+  int eye() const { return this->Eye; }
+
+  /// A sentence if the finer levels cannot be read; else empty.
+  std::string problem() const;
 
   /// Whether the next picture shows more, or tells more, than one a little later would not.
   bool isWorthAPicture() const;
 
   using Clock = std::chrono::steady_clock;
 
-  /// Waits until the next picture is worth it, but not longer than until `end`. False: then, or
-  /// nothing is wanted.
+  /// Waits until the next picture of this eye is worth it, but not longer than until `end`. False:
+  /// nothing more is wanted, or nothing was read until then.
   bool waitForMore(const Clock::time_point& end) const;
 
   /// The view asks for more than there is room for.
-  bool lacksRoom() const { return this->Full; }
+  bool lacksRoom() const;
 
   /// Adds the present state to the counters. The GPU is not asked.
   void count(Counters& counters) const;
@@ -82,11 +98,11 @@ private:
   void chooseLevel(const BrickView& view, const TissueRequest& tissue);
   bool allocate(GpuTask& gpu);
   void forgetBricks();
-  void noteView(const GpuTask& gpu, const BrickView& view, const TissueRequest& tissue);
   void place(const ReadBrick& read, TissueTextures& textures);
   std::vector<int> inOrder(const std::map<int, int>& pixels);
   void uploadPages();
-  bool isQuiet() const;
+  bool isQuiet(int eye) const;
+  std::int64_t wantedUntil(bool isQuiet) const;
 
   std::optional<LevelSource> Source;
   std::unique_ptr<BrickLoader> Loader; // null: there are no finer levels
@@ -98,21 +114,20 @@ private:
   PageTable Table;
   vtkSmartPointer<vtkTextureObject> Atlas;
   vtkSmartPointer<vtkTextureObject> Pages;
-  int Bytes = 4;                                  // of a voxel
-  double LimitMiB = 0.0;                          // see BrickView
-  bool IsRefused = false;                         // the memory for it
-  vtkWeakPointer<vtkTextureObject> RangesOf;      // whose ranges were widened
-  std::set<int> Failed;                           // bricks that cannot be read
-  std::vector<int> Wanted;                        // as ordered last
-  bool SaidDamage = false;                        // of this source
-  std::array<std::vector<double>, 2> ViewNumbers; // of each eye
-  int Eye = 0;                                    // of the last picture
-  bool IsStereo = false;
+  int Bytes = 4;                             // of a voxel
+  double LimitMiB = 0.0;                     // see BrickView
+  bool IsRefused = false;                    // the memory for it
+  vtkWeakPointer<vtkTextureObject> RangesOf; // whose ranges were widened
+  std::map<int, Clock::time_point> Failed;   // bricks that cannot be read until then
+  std::vector<int> Wanted;                   // as ordered last
+  bool ReportedDamage = false;               // of this source
+  int Eye = 0;                               // of the last picture
+  bool IsOfBoth = false;
   std::int64_t View = 0;    // counts views
   std::int64_t Changes = 0; // counts changes of what is there
   int Pictures = 0;
-  std::array<int, 2> Quiet{ 0, 0 }; // pictures of each eye in a row without a wish
-  bool Full = false;                // this view asks for more than there is room for
+  std::array<int, 2> Quiet{ 0, 0 };         // pictures of each eye in a row without a wish
+  std::array<bool, 2> Full{ false, false }; // its view asks for more than there is room for
 };
 }
 

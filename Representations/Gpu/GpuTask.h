@@ -43,6 +43,7 @@ struct Counters
   std::int64_t gpuBricks = 0;            ///< Now: bricks of it that are there.
   std::int64_t gpuBricksWanted = 0;      ///< Now: 0 where the view has all that it gets.
   std::int64_t gpuBricksComing = 0;      ///< Now: views that had better be drawn a little later.
+  std::int64_t gpuBricksRead = 0;        ///< Now: bricks that the next picture can show.
   std::int64_t gpuBricksLackRoom = 0;    ///< Now: views with more bricks than there is room for.
   std::int64_t gpuFieldMicroseconds = 0; ///< The GPU's last run from lattice to offset field.
 };
@@ -56,11 +57,12 @@ struct GpuTask
   {
   }
 
-  vtkOpenGLRenderWindow* window;    ///< Its OpenGL context is current.
-  Counters& counters;               ///< They count what is done.
-  bool moving = false;              ///< Work that the next still picture can do is left to it.
-  std::string problem;              ///< One sentence, without a full stop, if the work failed.
-  std::vector<std::string> remarks; ///< Warnings for the user; each is shown once.
+  vtkOpenGLRenderWindow* window;     ///< Its OpenGL context is current.
+  Counters& counters;                ///< They count what is done.
+  bool moving = false;               ///< Work that the next still picture can do is left to it.
+  std::string problem;               ///< One sentence, without a full stop, if the work failed.
+  std::vector<std::string> remarks;  ///< Warnings for the user; each is shown once.
+  std::vector<std::string> warnings; ///< Warnings that are shown each time.
 
   bool lacksMemory = false; ///< The work failed for want of memory: less of it may succeed.
   bool refused = false;     ///< The driver was asked for that memory.

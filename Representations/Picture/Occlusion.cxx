@@ -29,7 +29,9 @@ PixelBox widened(const PixelBox& box, int pixels)
 double toleranceOf(const RayCastScene& scene)
 {
   const glm::dvec3& side = scene.frame.mmFromTexture;
-  const glm::dvec3 voxel = scene.tissue.voxel * side;
+  const SceneBricks& bricks = scene.bricks;
+  const glm::dvec3 voxel =
+    (bricks.pages ? 1.0 / bricks.voxelFromTexture : scene.tissue.voxel) * side;
   const double known = 0.5 * glm::min(glm::min(voxel.x, voxel.y), voxel.z);
   const double scaled = std::abs(glm::determinant(glm::dmat3(scene.frame.worldFromTexture)));
   return glm::max(known, 0.5 * scene.stepMm()) * std::cbrt(scaled / (side.x * side.y * side.z));

@@ -86,7 +86,6 @@ void addView(Numbers& numbers, const RayCastScene& scene)
   add(numbers, lights.position);
   add(numbers, lights.color);
   add(numbers, lights.specular);
-  numbers.push_back(scene.bricks.pages ? static_cast<double>(scene.bricks.changes) : -1.0);
   const SceneComparison& comparison = scene.comparison;
   numbers.push_back(scene.tissue.scalars->GetHandle()); // of the volume or of its reference
   if (comparison.reference)
@@ -106,8 +105,8 @@ void add(Numbers& numbers, std::initializer_list<std::int64_t> counts)
   }
 }
 
-// The volume as the user chose it, and everything else in the scene.
-void addProps(Numbers& numbers, const DrawnVolume& drawn, const RayCastScene& scene)
+// Everything else in the scene.
+void addOtherProps(Numbers& numbers, const DrawnVolume& drawn)
 {
   vtkPropCollection* props = drawn.renderer->GetViewProps();
   vtkCollectionSimpleIterator at;
@@ -123,12 +122,30 @@ void addProps(Numbers& numbers, const DrawnVolume& drawn, const RayCastScene& sc
     const bool seen = bounds && vtkMath::AreBoundsInitialized(bounds);
     numbers.push_back(seen ? static_cast<double>(prop->GetRedrawMTime()) : 0.0);
   }
+}
+
+// The volume as the user chose it, and the view of it.
+void addChosen(Numbers& numbers, const DrawnVolume& drawn, unsigned long long settingsTime,
+  const RayCastScene& scene, const Counters& counters)
+{
+  addView(numbers, scene);
+  add(numbers,
+    { counters.volumeUploads, counters.transferUploads, counters.segmentUploads,
+      counters.evidenceUploads, scene.evidence.deviations ? 1 : 0 });
+  for (const PlacedFractions& mask : { scene.resection.removed, scene.resection.tumour })
+  {
+    add(numbers, mask.ownFromTexture);
+    numbers.push_back(mask.fractions ? mask.fractions->GetHandle() : 0);
+  }
   add(numbers, scene.cuts.clipPlanes);
   add(numbers, scene.blending.isovalues);
   for (int i = 0; i < 4; ++i)
   {
     numbers.push_back(scene.blending.slicePlane[i]);
   }
+  // Not the volume's own time: ParaView poses it for each picture anew.
+  numbers.push_back(static_cast<double>(settingsTime));
+  numbers.push_back(static_cast<double>(drawn.volume->GetProperty()->GetMTime()));
 }
 
 // A camera's matrix rounds differently when its clipping planes move. Counts and times have far
@@ -144,19 +161,9 @@ PictureStamp::Change PictureStamp::change(const DrawnVolume& drawn, unsigned lon
   const RayCastScene& scene, const Counters& counters)
 {
   Numbers now;
-  addView(now, scene);
-  add(now,
-    { counters.volumeUploads, counters.transferUploads, counters.segmentUploads,
-      counters.evidenceUploads, scene.evidence.deviations ? 1 : 0 });
-  for (const PlacedFractions& mask : { scene.resection.removed, scene.resection.tumour })
-  {
-    add(now, mask.ownFromTexture);
-    now.push_back(mask.fractions ? mask.fractions->GetHandle() : 0);
-  }
-  addProps(now, drawn, scene);
-  // Not the volume's own time: ParaView poses it for each picture anew.
-  now.push_back(static_cast<double>(settingsTime));
-  now.push_back(static_cast<double>(drawn.volume->GetProperty()->GetMTime()));
+  addChosen(now, drawn, settingsTime, scene, counters);
+  addOtherProps(now, drawn);
+  now.push_back(scene.bricks.pages ? static_cast<double>(scene.bricks.changes) : -1.0);
   Numbers bending;
   add(bending,
     { counters.latticeUploads, counters.texelsRefined, counters.presenceUpdates,
@@ -174,6 +181,22 @@ PictureStamp::Change PictureStamp::change(const DrawnVolume& drawn, unsigned lon
   this->LastSpace = std::move(space);
   this->LastBending = std::move(bending);
   return !sameView ? Anything : !sameSpace ? Reaching : sameBending ? Nothing : Bending;
+}
+
+ViewStamp::Change ViewStamp::change(const DrawnVolume& drawn, unsigned long long settingsTime,
+  const RayCastScene& scene, const Counters& counters)
+{
+  Numbers view;
+  addChosen(view, drawn, settingsTime, scene, counters);
+  // Not how far its field is computed: bricks that come change that.
+  view.push_back(static_cast<double>(counters.latticeUploads));
+  Numbers others;
+  addOtherProps(others, drawn);
+  const bool sameView = same(view, this->Last);
+  const bool sameOthers = same(others, this->LastOthers);
+  this->Last = std::move(view);
+  this->LastOthers = std::move(others);
+  return !sameView ? View : sameOthers ? Nothing : Others;
 }
 
 namespace

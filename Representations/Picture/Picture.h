@@ -53,6 +53,27 @@ private:
   std::vector<double> LastSpace;
 };
 
+/// Remembers what rays of a view can see, whichever bricks of a finer level are there.
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT ViewStamp
+{
+public:
+  enum Change
+  {
+    Nothing, ///< Rays see the same tissue.
+    Others,  ///< What is in front of the volume changed: it may hide less of it.
+    View     ///< Camera, size, settings, cuts or deformation changed.
+  };
+
+  /// Compares with the last call and remembers this one, as PictureStamp does. The scene's image
+  /// has its size.
+  Change change(const DrawnVolume& drawn, unsigned long long settingsTime,
+    const RayCastScene& scene, const Counters& counters);
+
+private:
+  std::vector<double> Last;
+  std::vector<double> LastOthers;
+};
+
 struct GpuTask;
 
 /// How a picture is wanted.

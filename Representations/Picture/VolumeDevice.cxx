@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/VolumeDevice.h"
 
+#include "Representations/Picture/PictureCapture.h"
+
 #include "vtkCamera.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
@@ -23,8 +25,6 @@ SceneBlending blendingFor(const VolumeRequest& request, const TissueRequest& tis
 
 namespace
 {
-constexpr std::chrono::seconds LongestWait(60); // for bricks, of a picture that is saved
-
 // Tiles of a large picture show light that tissue of their neighbours hides: a margin of it is cast
 // with each of them.
 void widenTile(PictureWish& wish, RayCastScene& scene)
@@ -109,23 +109,48 @@ bool VolumeDevice::askForMemory(
   return this->Deformation.askForMemory(gpu, this->Memory, need, request.memoryLimitMiB);
 }
 
+namespace
+{
+bool isLeftEye(const DrawnVolume& drawn)
+{
+  return drawn.renderer->GetActiveCamera()->GetLeftEye() != 0;
+}
+
+// ParaView saves the eyes one by one, and composes them.
+bool drawsBothEyes(vtkRenderWindow* window)
+{
+  const int type = window->GetStereoType();
+  return window->GetStereoRender() && type != VTK_STEREO_LEFT && type != VTK_STEREO_RIGHT;
+}
+}
+
 bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
   const VolumeRequest& request)
 {
   const bool waits = request.waits && !gpu.moving;
-  const auto end = StreamedBricks::Clock::now() + LongestWait;
+  PictureCapture& capture = PictureCapture::current();
+  if (waits)
+  {
+    capture.join(gpu.window, this, isLeftEye(drawn));
+  }
+  else
+  {
+    capture.end();
+  }
+  bool isLast = true;
   this->Picture.begin();
   do
   {
+    isLast = !waits || StreamedBricks::Clock::now() >= capture.deadline();
     if (!this->castTissue(gpu, drawn, deformation, request))
     {
       return false;
     }
     this->Bricks.finish(this->images().takeWishes());
-  } while (waits && this->Bricks.waitForMore(end));
+  } while (!isLast && this->Bricks.waitForMore(capture.deadline()));
   if (waits)
   {
-    this->sayIfCoarse(gpu);
+    this->reportIfCoarse(gpu);
   }
   const PictureWish& wish = request.wish;
   const bool done = this->images().composite(
@@ -134,20 +159,20 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
   return done;
 }
 
-void VolumeDevice::sayIfCoarse(GpuTask& gpu) const
+void VolumeDevice::reportIfCoarse(GpuTask& gpu) const
 {
-  const std::int64_t wanted = this->Bricks.wanted();
-  if (wanted > 0)
+  gpu.remarks.push_back(this->Bricks.problem()); // which may have come up while it waited
+  const std::int64_t wanted = this->Bricks.wantedByEye();
+  if ((wanted <= 0 && !this->Bricks.lacksRoom()) || !PictureCapture::current().warns())
   {
-    gpu.remarks.push_back("A picture that was saved is coarser in places: " +
-      std::to_string(wanted) + " bricks of finer voxels were still to come after " +
-      std::to_string(LongestWait.count()) + " s. Save it once more to wait for them");
+    return;
   }
-  else if (this->Bricks.lacksRoom())
-  {
-    gpu.remarks.emplace_back("A picture that was saved is coarser in places: there is no memory "
-                             "for more bricks of finer voxels. Set a greater Memory Limit");
-  }
+  const std::string coarser = "A picture that was saved is coarser in places: ";
+  gpu.warnings.push_back(wanted > 0
+      ? coarser + std::to_string(wanted) + " bricks of finer voxels or more were still to come " +
+        "after " + std::to_string(PictureCapture::LongestWait.count()) +
+        " s. Save it once more to wait for them"
+      : coarser + "there is no memory for more bricks of finer voxels. Set a greater Memory Limit");
 }
 
 bool VolumeDevice::castTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
@@ -171,6 +196,7 @@ bool VolumeDevice::castTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
   {
     this->compare(gpu, drawn, request, scene, referenceScene);
   }
+  this->askForBricks(gpu, drawn, request.wish, scene);
   PictureWish wish = request.wish;
   const glm::dmat4 clipFromWorld = scene.frame.clipFromWorld;
   widenTile(wish, scene);
@@ -184,6 +210,24 @@ bool VolumeDevice::castTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
     this->images().trimTile(wish.margin, clipFromWorld);
   }
   return true;
+}
+
+// Rays ask for bricks until nothing is missing, and again when they may see other tissue.
+void VolumeDevice::askForBricks(
+  const GpuTask& gpu, const DrawnVolume& drawn, const PictureWish& wish, RayCastScene& scene)
+{
+  if (!scene.bricks.pages)
+  {
+    return;
+  }
+  scene.image.size = wish.size;
+  ViewStamp& stamp = this->Views[this->Bricks.eye()];
+  const ViewStamp::Change change = stamp.change(drawn, wish.settingsTime, scene, gpu.counters);
+  if (change == ViewStamp::View)
+  {
+    this->Bricks.beginView();
+  }
+  scene.bricks.asks = this->Bricks.asks(change != ViewStamp::Nothing);
 }
 
 namespace
@@ -210,10 +254,8 @@ TissueRequest VolumeDevice::planBricks(
   view.frame = frameOf(drawn, tissue.values);
   view.pixels = request.wish.size;
   view.asks = !request.wish.countSamples;
-  if (gpu.window->GetStereoRender())
-  {
-    view.eye = drawn.renderer->GetActiveCamera()->GetLeftEye() != 0 ? 0 : 1;
-  }
+  view.isOfBoth = drawsBothEyes(gpu.window);
+  view.eye = gpu.window->GetStereoRender() && !isLeftEye(drawn) ? 1 : 0;
   if (request.memoryLimitMiB > 0.0)
   {
     constexpr double bytesInMiB = 1048576.0;

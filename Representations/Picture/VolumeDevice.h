@@ -14,6 +14,8 @@
 #include "Representations/Tissue/ResectionTextures.h"
 #include "Representations/Tissue/SceneReference.h"
 
+#include <array>
+
 class vtkVolumeMapper;
 class vtkWindow;
 
@@ -29,7 +31,7 @@ struct VolumeRequest
   SceneReference reference;
   bool showsEvidence = false;
   Resection resection;
-  bool waits = false;          ///< A still picture has all bricks that its rays ask for.
+  bool waits = false;          ///< A picture is saved: with all bricks that its rays ask for.
   double memoryLimitMiB = 0.0; ///< 0: all that the driver gives.
   std::vector<double> part;    ///< Between these bounds (mm) of the deformed frame; empty: all.
   glm::dvec3 wholeLow{ 0.0 };  ///< With a part: the whole volume's box, in the grid of its voxels.
@@ -65,7 +67,9 @@ private:
     const VolumeRequest& request);
   bool castTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
     const VolumeRequest& request);
-  void sayIfCoarse(GpuTask& gpu) const;
+  void askForBricks(
+    const GpuTask& gpu, const DrawnVolume& drawn, const PictureWish& wish, RayCastScene& scene);
+  void reportIfCoarse(GpuTask& gpu) const;
   bool uploadVolume(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
     const VolumeRequest& request, RayCastScene& scene);
   TissueRequest planBricks(
@@ -86,6 +90,7 @@ private:
   GpuMemory Memory;
   FinestLevel Level;
   StreamedBricks Bricks;
+  std::array<ViewStamp, 2> Views; // of each eye, for the bricks
 };
 }
 

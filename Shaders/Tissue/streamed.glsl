@@ -29,7 +29,7 @@ vec4 pageOf(vec3 brick)
 }
 
 // Where a voxel lies in the atlas.
-vec3 placeInAtlas(vec4 page, vec3 fine, vec3 brick)
+vec3 positionInAtlas(vec4 page, vec3 fine, vec3 brick)
 {
   vec3 slot = floor(page.xyz * 255.0 + 0.5) * SlotSideVoxels;
   return (slot + fine - BRICK_SIDE * brick + BRICK_BORDER) * atlasTexel;
@@ -41,7 +41,7 @@ float scalarAt(vec3 rest)
   vec3 brick = brickOf(fine);
   vec4 page = pageOf(brick);
   return page.a < 0.5 ? textureLod(scalars, rest, 0.0).r
-                      : textureLod(atlas, placeInAtlas(page, fine, brick), 0.0).r;
+                      : textureLod(atlas, positionInAtlas(page, fine, brick), 0.0).r;
 }
 
 vec3 gradientIn(sampler3D voxels, vec3 place, vec3 texel, vec3 away)
@@ -65,7 +65,7 @@ vec3 gradientAt(vec3 rest)
   vec4 page = pageOf(brick);
   return page.a < 0.5
     ? gradientIn(scalars, rest, voxel, voxel)
-    : gradientIn(atlas, placeInAtlas(page, fine, brick), atlasTexel, 1.0 / fineFromTexture);
+    : gradientIn(atlas, positionInAtlas(page, fine, brick), atlasTexel, 1.0 / fineFromTexture);
 }
 
 #ifdef WISHES

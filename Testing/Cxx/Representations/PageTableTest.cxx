@@ -55,7 +55,7 @@ TEST(PageTable, LeadsToTheSlotOfEachBrick)
       if (slot != PageTable::None)
       {
         found[slot] = brick;
-        const glm::ivec3 place = table.placeOf(slot);
+        const glm::ivec3 place = table.positionOf(slot);
         ASSERT_EQ((place.z * 2 + place.y) * 3 + place.x, slot);
       }
     }

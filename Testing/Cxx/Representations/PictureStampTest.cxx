@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a picture is cast anew when anything it depends on has changed, in part when tissue
-// bends, and not at all otherwise.
+// bends, and not at all otherwise; and what may show tissue whose bricks nothing asked for.
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Picture/Picture.h"
 #include "Representations/Scene/RayCastScene.h"
@@ -64,6 +64,19 @@ protected:
     return this->change();
   }
 
+  // What one edit means for the bricks of a view that has all of them.
+  ViewStamp::Change viewAfter(const std::function<void()>& edit)
+  {
+    const auto change = [this] {
+      return this->View.change(
+        { this->Shown.renderer(), this->Volume }, this->SettingsTime, this->Scene, this->Count);
+    };
+    change();
+    EXPECT_EQ(change(), ViewStamp::Nothing);
+    edit();
+    return change();
+  }
+
   vtkTextureObject* textureOf(int side)
   {
     auto texture = vtkSmartPointer<vtkTextureObject>::New();
@@ -80,6 +93,7 @@ protected:
   Counters Count;
   unsigned long long SettingsTime = 1;
   PictureStamp Stamp;
+  ViewStamp View;
 };
 }
 
@@ -166,4 +180,41 @@ TEST_F(PictureStampTest, OtherPropsCountWhereTheyAreSomewhere)
   EXPECT_EQ(this->after([&] { actor->VisibilityOff(); }), PictureStamp::Anything);
   EXPECT_EQ(this->after([&] { actor->SetPosition(2.0, 0.0, 0.0); }), PictureStamp::Nothing)
     << "hidden";
+}
+
+TEST_F(PictureStampTest, BricksThatArriveMakeAPictureNewAndTheViewStaysTheSame)
+{
+  this->Scene.bricks.pages = this->textureOf(2);
+  const auto arrive = [&] {
+    this->Scene.bricks.changes += 1;
+    this->Count.presenceUpdates += 1; // their ranges are wider
+  };
+  EXPECT_EQ(this->after(arrive), PictureStamp::Anything);
+  EXPECT_EQ(this->viewAfter(arrive), ViewStamp::Nothing);
+}
+
+TEST_F(PictureStampTest, WhatMayShowOtherTissueMakesAViewNew)
+{
+  RayCastScene& scene = this->Scene;
+  const std::vector<std::pair<const char*, std::function<void()>>> edits = {
+    { "camera", [&] { scene.frame.clipFromWorld[0][0] *= 1.001; } },
+    { "width", [&] { scene.image.size.x += 1; } },
+    { "step", [&] { scene.tissue.stepMm *= 1.1; } },
+    { "clipping", [&] { scene.cuts.clipPlanes = { 1.0f, 0.0f, 0.0f, -0.2f }; } },
+    { "resection", [&] { scene.resection.removed.fractions = this->textureOf(4); } },
+    { "settings", [&] { this->SettingsTime += 1; } },
+    { "property", [&] { this->Volume->GetProperty()->SetAmbient(0.7); } },
+    { "stroke", [&] { this->Count.latticeUploads += 1; } },
+  };
+  for (const auto& [what, edit] : edits)
+  {
+    EXPECT_EQ(this->viewAfter(edit), ViewStamp::View) << what;
+  }
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sphere->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->Shown.renderer()->AddViewProp(actor);
+  EXPECT_EQ(this->viewAfter([&] { actor->VisibilityOff(); }), ViewStamp::Others);
 }

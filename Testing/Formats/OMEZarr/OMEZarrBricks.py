@@ -93,6 +93,14 @@ class Shown:
         simple.Delete(self.view)
 
 
+def save(name, view, size):
+    """The bytes of a picture that is saved with nothing drawn before."""
+    file = os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], name)
+    assert simple.SaveScreenshot(file, view, ImageResolution=[size, size])
+    with open(file, "rb") as stream:
+        return stream.read()
+
+
 def differences(left, right):
     off = numpy.abs(left - right).max(axis=2)
     return off.max(), (off > 1.5 / 255).sum(), object_pixels(left, right).sum()
@@ -194,10 +202,14 @@ def test_little_memory():
     full, state = shown.detail()
     need = sum(state[name] for name in ("gpuScalarBytes", "gpuOtherBytes")) / 2 ** 20
     all_bricks = state["gpuBricks"]
-    shown.display.MemoryLimit = need - 0.4 * all_bricks * 34 ** 3 * 4 / 2 ** 20
+    shown.display.MemoryLimit = need - 0.4 * all_bricks * 36 ** 3 * 4 / 2 ** 20
     with messages() as said:
         part, state = shown.detail()
     assert_says(said.text, "saved", "no memory", "Memory Limit")
+    with messages() as said:
+        save("part.png", shown.view, 120)
+        save("part.png", shown.view, 120)
+    assert said.text.count("no memory") == 2, said.text  # each picture that is saved
     assert 8 <= state["gpuBricks"] < all_bricks, (state, all_bricks)
     assert state["gpuBricksLackRoom"] == 1, state
     assert 0 < differences(part, full)[1], "some of it is coarse"
@@ -297,14 +309,83 @@ def test_a_saved_picture_is_complete():
     state = brainshift.gpu(shown.display)
     assert state["gpuBricksWanted"] == 0 and state["gpuBricks"] > 8, state
     assert numpy.array_equal(shown.detail()[0], image)
-    larger = []
-    for name in ("first.png", "again.png"):
-        file = os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], name)
-        assert simple.SaveScreenshot(file, shown.view, ImageResolution=[260, 260])
-        with open(file, "rb") as stream:
-            larger.append(stream.read())
+    larger = [save(name, shown.view, 260) for name in ("first.png", "again.png")]
     assert larger[0] == larger[1], "the first one waited for its bricks"
     shown.close()
+
+
+def test_a_saved_picture_of_both_eyes_comes_to_an_end():
+    """Each eye waits for its own bricks alone: it would wait for a minute, and warn."""
+    shown = Shown(coarse(store()), size=120)
+    shown.view.StereoType = "Red-Blue"
+    shown.view.StereoRender = 1
+    files = []
+    for name in ("first-eyes.png", "again-eyes.png"):
+        with messages() as said:
+            files.append(save(name, shown.view, 260))
+        assert "coarser" not in said.text, said.text
+    assert files[0] == files[1], "the first one waited for its bricks"
+    shown.close()
+
+
+def test_one_eye_alone_comes_to_an_end():
+    shown = Shown(coarse(store()), size=120)
+    shown.view.StereoType = "Left"
+    shown.view.StereoRender = 1
+    _, state = shown.detail(seconds=30)
+    assert state["gpuBricksWanted"] == 0 and state["gpuBricks"] > 8, state
+    shown.close()
+
+
+def test_tissue_that_a_cut_or_a_mesh_uncovers_is_complete():
+    """The camera does not move, and all bricks of the view before are there."""
+    path = store()
+    both = Shown(reader(path, Level=0), OPAQUE), Shown(coarse(path), OPAQUE)
+    direct, streamed = both
+    cover = simple.Plane(Origin=[-60, -60, 110], Point1=[50, -60, 110], Point2=[-60, 180, 110])
+    covers = [simple.Show(cover, shown.view) for shown in both]
+    before = streamed.detail()[1]["gpuBricks"]
+    for one in covers:
+        one.Visibility = 0
+    image, state = streamed.detail()
+    assert state["gpuBricks"] > before, (state, before)
+    assert differences(image, picture(direct.view))[1] == 0
+    before = state["gpuBricks"]
+    for shown in both:
+        plane = vtkPlane()
+        plane.SetOrigin(48.0, 56.0, 24.0)
+        plane.SetNormal(-0.1, 0.2, -1.0)
+        prop_of(shown.view).GetMapper().AddClippingPlane(plane)
+    image, state = streamed.detail()
+    assert state["gpuBricks"] > before, (state, before)
+    assert differences(image, picture(direct.view))[1] == 0
+    for shown in both:
+        shown.close()
+
+
+def test_shadows_are_those_of_the_finer_level():
+    path = store()
+    named = {"AmbientOcclusion": 1.0, "OcclusionRadius": 8.0}
+    direct = Shown(reader(path, Level=0), OPAQUE, **named)
+    blurry = Shown(blurred(), OPAQUE, **named)
+    streamed = Shown(coarse(path), OPAQUE, **named)
+    image, _ = streamed.detail()
+    compare("with shadows", image, picture(direct.view), picture(blurry.view), 0)
+    for one in (direct, blurry, streamed):
+        one.close()
+
+
+def test_finer_levels_that_cannot_be_read():
+    """Also the first picture warns of it."""
+    path = store()
+    source = coarse(path)
+    os.remove(os.path.join(path, "0", ".zarray"))
+    view = view_along((-0.2, 0.3, -1), MIDDLE, 190.0, size=120)
+    with messages() as said:
+        show_volume(source, view, "Deformed Volume", COLORS, TRANSLUCENT)
+        save("unread.png", view, 120)
+    assert_says(said.text, path, "no array '0'")
+    simple.Delete(view)
 
 
 def test_stereo_comes_to_an_end():
