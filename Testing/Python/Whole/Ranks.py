@@ -14,9 +14,9 @@ from ranks_testing import MPI, answers, answers_of_batch  # noqa: E402
 FOLDER = scratch("ranks")
 SERVER_FINDS_PLUGIN = server_finds_plugin()
 LARGEST_NUMBER = 1e-6  # mm, or a voxel's unit
-# mm. A rank finds the surface where its own tissue hides one half, not knowing what other ranks
-# have before it.
-LARGEST_PICK = 0.5
+# mm, a voxel. A rank finds the surface of translucent tissue where its own part hides one half, not
+# knowing what other ranks have before it.
+LARGEST_PICK = 1.0
 LARGEST_OF_TWO = 12 / 255  # of pictures of two volumes
 
 
