@@ -150,6 +150,6 @@ def measure_floors(report_of, options):
             times = [floors.speeds(opacities, window) for window in options.windows]
             floors.errors(opacities, times[0])
         scene.close()
-        report.targets()
+    report.targets()
     report.worst()
     return report

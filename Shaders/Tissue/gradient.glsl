@@ -37,14 +37,20 @@ vec3 differences(vec3 low, vec3 high, float scalar, vec3 voxel)
   return (mix(here, high, knowsHigh) - mix(here, low, knowsLow)) / (max(sides, 1.0) * voxel);
 }
 
-vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
+// `texel`: a voxel in the texture; `voxel`: the same in what the gradient is of.
+vec3 centralDifferences(sampler3D field, vec3 position, vec3 texel, vec3 voxel)
 {
-  vec3 alongX = vec3(voxel.x, 0.0, 0.0);
-  vec3 alongY = vec3(0.0, voxel.y, 0.0);
-  vec3 alongZ = vec3(0.0, 0.0, voxel.z);
+  vec3 alongX = vec3(texel.x, 0.0, 0.0);
+  vec3 alongY = vec3(0.0, texel.y, 0.0);
+  vec3 alongZ = vec3(0.0, 0.0, texel.z);
   vec3 low = vec3(textureLod(field, position - alongX, 0.0).r,
     textureLod(field, position - alongY, 0.0).r, textureLod(field, position - alongZ, 0.0).r);
   vec3 high = vec3(textureLod(field, position + alongX, 0.0).r,
     textureLod(field, position + alongY, 0.0).r, textureLod(field, position + alongZ, 0.0).r);
   return differences(low, high, textureLod(field, position, 0.0).r, voxel);
+}
+
+vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
+{
+  return centralDifferences(field, position, voxel, voxel);
 }

@@ -1,8 +1,8 @@
 // Voxels of a finer level of the volume, in bricks that come while rays ask for them. Where a brick
 // is not there, the volume's own voxels are drawn.
 
-uniform sampler3D pages; // for each brick: place of its slot, of 255; alpha 1 if it is there
-uniform sampler3D atlas; // slots of bricks, each with a border: red: the scalar, as stored
+uniform sampler3D pages;      // for each brick: place of its slot, of 255; alpha 1 if it is there
+uniform sampler3D atlas;      // slots of bricks, each with a border: red: the scalar, as stored
 uniform vec3 fineFromTexture; // scale and shift: voxels of the finer level
 uniform vec3 fineOfTextureZero;
 uniform vec3 fineVoxels; // a side
@@ -28,7 +28,7 @@ vec4 pageOf(vec3 brick)
   return textureLod(pages, (brick + 0.5) * pagesTexel, 0.0);
 }
 
-// Where a voxel lies in the atlas.
+// Position of a voxel in the atlas.
 vec3 positionInAtlas(vec4 page, vec3 fine, vec3 brick)
 {
   vec3 slot = floor(page.xyz * 255.0 + 0.5) * SlotSideVoxels;
@@ -44,18 +44,6 @@ float scalarAt(vec3 rest)
                       : textureLod(atlas, positionInAtlas(page, fine, brick), 0.0).r;
 }
 
-vec3 gradientIn(sampler3D voxels, vec3 place, vec3 texel, vec3 away)
-{
-  vec3 alongX = vec3(texel.x, 0.0, 0.0);
-  vec3 alongY = vec3(0.0, texel.y, 0.0);
-  vec3 alongZ = vec3(0.0, 0.0, texel.z);
-  vec3 low = vec3(textureLod(voxels, place - alongX, 0.0).r,
-    textureLod(voxels, place - alongY, 0.0).r, textureLod(voxels, place - alongZ, 0.0).r);
-  vec3 high = vec3(textureLod(voxels, place + alongX, 0.0).r,
-    textureLod(voxels, place + alongY, 0.0).r, textureLod(voxels, place + alongZ, 0.0).r);
-  return differences(low, high, textureLod(voxels, place, 0.0).r, away);
-}
-
 // Differences over one voxel to either side, of the level that is drawn there. A slot's border has
 // the voxels of its neighbours.
 vec3 gradientAt(vec3 rest)
@@ -63,9 +51,9 @@ vec3 gradientAt(vec3 rest)
   vec3 fine = fineAt(rest);
   vec3 brick = brickOf(fine);
   vec4 page = pageOf(brick);
-  return page.a < 0.5
-    ? gradientIn(scalars, rest, voxel, voxel)
-    : gradientIn(atlas, positionInAtlas(page, fine, brick), atlasTexel, 1.0 / fineFromTexture);
+  return page.a < 0.5 ? centralDifferences(scalars, rest, voxel)
+                      : centralDifferences(atlas, positionInAtlas(page, fine, brick), atlasTexel,
+                          1.0 / fineFromTexture);
 }
 
 #ifdef WISHES
