@@ -20,7 +20,12 @@ _COVER = 0.6
 _TRACE_COLORS = (-1, 0.48, 0, 0.75, -0.25, 0.75, 0.35, 1, 0, 1, 1, 1,
                  0.25, 0.2, 0.85, 0.3, 1, 0, 0.5, 0.1)
 _TRACE_SCALE_MM = 6.0
-_POINT_PIXELS = 10.0  # in a picture 760 pixels wide, which is 67 mm wide in print
+_POINT_PIXELS = 13.0  # in a picture 760 pixels wide, which is 67 mm wide in print
+
+#: Where the tissue is in a picture, fractions: left, right, lower and upper edge. The scale bar is
+#: below it, and the scale of distances right of it.
+_FRAME = (0.03, 0.88, 0.12, 0.97)
+_DARK = 8  # brightness (0 to 255) of the ground, at most
 
 
 def _hidden_view():
@@ -108,6 +113,31 @@ def _aim_at(view, outwards):
         view.CameraViewUp = [0, 1, 0] if abs(direction[2]) > 0.9 else [0, 0, 1]
 
 
+def _frame(view, size):
+    """Moves and zooms the camera so that what is drawn on the black ground fills `_FRAME`."""
+    import numpy
+
+    drawn = _pixels(view, size).max(axis=2) > _DARK
+    if not drawn.any():
+        return
+    columns, rows = (numpy.flatnonzero(drawn.any(axis=axis)) for axis in (0, 1))
+    left, right, lower, upper = numpy.array(_FRAME) * (size[0], size[0], size[1], size[1])
+    zoom = min((right - left) / (columns[-1] + 1 - columns[0]),
+               (upper - lower) / (rows[-1] + 1 - rows[0]))
+    focus, eye, up = (numpy.array(view.GetPropertyValue(name)) for name in (
+        "CameraFocalPoint", "CameraPosition", "CameraViewUp"))
+    along = (focus - eye) / numpy.linalg.norm(focus - eye)
+    across = numpy.cross(along, up)
+    across /= numpy.linalg.norm(across)
+    mm = 2.0 * view.CameraParallelScale / size[1]  # of a pixel before the zoom
+    middle = (columns[-1] + 1 + columns[0] - size[0]) / 2, (rows[-1] + 1 + rows[0] - size[1]) / 2
+    wanted = (left + right - size[0]) / 2 / zoom, (lower + upper - size[1]) / 2 / zoom
+    shift = mm * ((middle[0] - wanted[0]) * across
+                  + (middle[1] - wanted[1]) * numpy.cross(across, along))
+    view.CameraFocalPoint, view.CameraPosition = list(focus + shift), list(eye + shift)
+    view.CameraParallelScale /= zoom
+
+
 def _outwards(case):
     """The direction from the middle of the volume to what was measured, or zero."""
     import numpy
@@ -142,6 +172,7 @@ def before_and_after(case, size):
     with _own_view(_volume_view(size)) as view:
         _show_bent(case.bent, view)
         _aim_at(view, _outwards(case))
+        _frame(view, size)
         after = with_scale_bar(_pixels(view, size), _scale(view, size))
         if case.bent.Strength == 0:
             return after, after
@@ -169,6 +200,7 @@ def traces(case, size):
             color = simple.GetColorTransferFunction("DistanceToCortex", points, separate=True)
             color.ColorSpace, color.RGBPoints = "RGB", _TRACE_COLORS
             color.RescaleTransferFunction(-_TRACE_SCALE_MM, _TRACE_SCALE_MM)
+        _frame(view, size)
         bar = simple.GetScalarBar(color, view)
         bar.Title, bar.ComponentTitle, bar.RangeLabelFormat = "mm above the cortex", "", "%.0f"
         points.SetScalarBarVisibility(view, True)

@@ -111,6 +111,14 @@ def test_the_pictures_show_what_they_say():
     for before, after in ((0, 1), (2, 5), (11, 12)):
         assert shown[before].max() > 100, "a picture is black"
         assert numpy.abs(shown[before] - shown[after]).mean() > 0.2, (before, after)
+    for picture in (shown[0], shown[1], shown[11], shown[12]):  # the scale bar is below the tissue
+        height, width, _ = picture.shape
+        drawn = picture.max(axis=2) > 40
+        beside = numpy.r_[0:int(0.15 * width), int(0.55 * width):int(0.85 * width)]
+        assert not drawn[:int(0.1 * height), beside].any(), "tissue beside the scale bar"
+        tissue = drawn[int(0.11 * height):, :int(0.89 * width)]
+        sides = [numpy.ptp(numpy.flatnonzero(tissue.any(axis=axis))) for axis in (0, 1)]
+        assert sides[0] > 0.8 * width or sides[1] > 0.8 * height, (sides, width, height)
     # The tumour: orange where it is left, blue where it was removed.
     red, green, blue = numpy.concatenate(shown[8:11]).transpose(2, 0, 1)
     is_left = (red > 1.3 * green) & (green > 1.3 * blue) & (red > 0.5 * ORANGE[0])

@@ -31,9 +31,13 @@ def is_grey(display):
 
 
 def looks():
-    """Of all displays: how, and in which colours."""
-    return [(str(display.Representation.GetData()), colors(display))
-            for display in simple.GetActiveView().Representations if hasattr(display, "Input")]
+    """Of all displays: how, and in which colours.
+
+    Python's first look at a map sends what ParaView has set in it and not sent yet, which would be
+    a step to undo."""
+    with window.unrecorded():
+        return [(str(display.Representation.GetData()), colors(display))
+                for display in simple.GetActiveView().Representations if hasattr(display, "Input")]
 
 
 def first_looks_are_undone_and_redone():
