@@ -3,17 +3,17 @@
 
 import collections
 import csv
-import glob
 import hashlib
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
 import time
 from html import escape
+from urllib.parse import quote
 
+from .rolefiles import files_of
 from .roles import FILE_ROLES, proposed
 
 #: What `batch` can do with a case, in the order in which it does it.
@@ -50,6 +50,9 @@ th, td { text-align: left; padding: 0.4rem 0.8rem 0.4rem 0; border-bottom: 1px s
   vertical-align: top; }
 .failed { font-weight: 600; }
 @page { size: A4 landscape; margin: 14mm; }"""
+
+#: A case to run, the key that its result gets, and the memory (bytes) that it is expected to need.
+_Planned = collections.namedtuple("_Planned", "case key bytes")
 
 Done = collections.namedtuple("Done", "name state seconds problem figures folder")
 Done.__doc__ = """A case of a batch.
@@ -118,51 +121,26 @@ def read_manifest(file):
     return cases
 
 
-def _beside(path):
-    """Files that hold the voxels of a header."""
-    if not path.lower().endswith((".mhd", ".nhdr")):
-        return
-    with open(path, "rb") as file:
-        lines = file.read(1 << 16).decode("latin-1").splitlines()
-    for number, line in enumerate(lines):
-        found = re.match(r"(?i)\s*(?:ElementDataFile\s*=|data ?file:)\s*(.*\S)", line)
-        if found:
-            named = found.group(1)
-            names = [re.sub(r"%\d*d.*", "*", named)] + (  # numbered files, or a list of them
-                lines[number + 1:] if named.lower().startswith("list") else [])
-            folder = glob.escape(os.path.dirname(path))
-            for name in filter(None, map(str.strip, names)):
-                pattern = name if "*" in name else glob.escape(name)
-                yield from sorted(glob.glob(os.path.join(folder, pattern)))
-            return
-
-
 def _files(case):
-    """All files of a case, with those that a header names."""
+    """All files that are read for a case."""
     for role in FILE_ROLES:
         value = case.get(role)
         for path in [value] if isinstance(value, str) else value or []:
-            if isinstance(path, str) and os.path.isdir(path):
-                yield from (os.path.join(path, name) for name in sorted(os.listdir(path)))
-            elif isinstance(path, str):
-                yield path
-                if os.path.exists(path):
-                    yield from _beside(path)
+            if isinstance(path, str):
+                yield from files_of(path)
 
 
-def _key(case, steps):
-    """A text that changes with the case, its files and the steps."""
+def _plan(case, steps):
+    """A case whose key changes with it, its files and the steps. Raises `OSError` if its files
+    cannot be read."""
     from .version import VERSION
 
     known = [(path, os.path.getsize(path), os.path.getmtime(path))
              for path in _files(case) if os.path.exists(path)]
     text = json.dumps([case, list(steps), known, VERSION], sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _bytes_needed(case):
-    return _LEAST_BYTES + _BYTES_PER_BYTE * sum(
-        os.path.getsize(path) for path in _files(case) if os.path.exists(path))
+    size = sum(each for _, each, _ in known)
+    return _Planned(case, hashlib.sha256(text.encode()).hexdigest(),
+                    _LEAST_BYTES + _BYTES_PER_BYTE * size)
 
 
 def _bytes_free():
@@ -190,16 +168,16 @@ def _program():
 class _Running:
     """A process that does one case."""
 
-    def __init__(self, case, steps, folder):
-        self.case, self.folder, self.begun = case, folder, time.monotonic()
-        self.bytes = _bytes_needed(case)
+    def __init__(self, planned, steps, folder):
+        self.case, self.folder, self.begun = planned.case, folder, time.monotonic()
+        self.bytes = planned.bytes
         os.makedirs(folder, exist_ok=True)
         self.result = os.path.join(folder, RESULT)
         for former in (RESULT, PAGE):  # of other files or steps
             if os.path.exists(os.path.join(folder, former)):
                 os.remove(os.path.join(folder, former))
         shutil.rmtree(os.path.join(folder, EXPORTED), ignore_errors=True)
-        job = {"case": case, "steps": list(steps), "folder": folder, "key": _key(case, steps)}
+        job = {"case": planned.case, "steps": list(steps), "folder": folder, "key": planned.key}
         worker = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worker.py")
         path = os.pathsep.join([os.path.dirname(os.path.dirname(worker)),
                                 os.environ.get("PYTHONPATH", "")])
@@ -245,15 +223,19 @@ def _read(file):
         return None
 
 
-def _kept(case, steps, folder):
-    """The result of an earlier run with the same files and steps that did not fail, or None."""
+def _kept(planned, folder):
+    """The result of an earlier run with the same files and steps that did not fail and whose
+    outputs are still there, or None."""
     result = _read(os.path.join(folder, RESULT))
-    if result is None or result["problem"] or result["key"] != _key(case, steps):
+    if result is None or result["problem"] or result["key"] != planned.key:
         return None
-    return Done(case["name"], "kept", 0.0, "", result["figures"], folder)
+    outputs = result.get("outputs")
+    if outputs is None or not all(os.path.exists(os.path.join(folder, name)) for name in outputs):
+        return None
+    return Done(planned.case["name"], "kept", 0.0, "", result["figures"], folder)
 
 
-def _fits(running, case, most):
+def _fits(running, planned, most):
     """Whether one more case may start: one always may."""
     free = _bytes_free()
     if not running:
@@ -261,7 +243,7 @@ def _fits(running, case, most):
     if len(running) >= most or free is None:
         return len(running) < most
     young = sum(one.bytes for one in running if time.monotonic() - one.begun < 10.0)
-    return free - young > _bytes_needed(case)  # young ones have not taken theirs yet
+    return free - young > planned.bytes  # young ones have not taken theirs yet
 
 
 def _write_table(done, folder):
@@ -281,8 +263,8 @@ def _write_index(done, folder, count):
     for one in done:
         page = os.path.join(one.folder, PAGE)
         name = escape(one.name)
-        if os.path.exists(page):
-            link = escape(os.path.relpath(page, folder).replace(os.sep, "/").replace("%", "%25"))
+        if one.state != "failed" and os.path.exists(page):  # it may be of an earlier run
+            link = escape(quote(os.path.relpath(page, folder).replace(os.sep, "/")))
             name = f'<a href="{link}">{name}</a>'
         figures = (one.figures.get(name) for name in FIGURES)
         cells = "".join("<td>" + ("" if value is None else f"{value:.2f}") + "</td>"
@@ -326,21 +308,29 @@ def _run_all(cases, steps, out, most, timeout, progress):
         _write([results[case["name"]] for case in cases if case["name"] in results], out,
                len(cases))
         _told(progress, done, (len(results), len(cases)))
+
+    def fail(case, error):
+        end(Done(case["name"], "failed", 0.0, str(error), {}, os.path.join(out, case["name"])))
     for case in cases:
-        kept = _kept(case, steps, os.path.join(out, case["name"]))
+        try:
+            planned = _plan(case, steps)
+        except OSError as error:
+            fail(case, error)
+            continue
+        kept = _kept(planned, os.path.join(out, case["name"]))
         if kept:
             end(kept)
         else:
-            waiting.append(case)
+            waiting.append(planned)
     try:
         while waiting or running:
             while waiting and _fits(running, waiting[0], most):
-                case = waiting.pop(0)
+                planned = waiting.pop(0)
                 try:
-                    running.append(_Running(case, steps, os.path.join(out, case["name"])))
+                    running.append(_Running(planned, steps,
+                                            os.path.join(out, planned.case["name"])))
                 except OSError as error:
-                    end(Done(case["name"], "failed", 0.0, str(error), {},
-                             os.path.join(out, case["name"])))
+                    fail(planned.case, error)
             for one in list(running):
                 done = one.ended(timeout)
                 if done:

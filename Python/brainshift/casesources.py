@@ -2,13 +2,13 @@
 """Sources of the pipeline as a case sees them: their marks, names, kinds and inputs."""
 
 import functools
-import glob
 import hashlib
 import itertools
 import json
 import os
 import time
 
+from .rolefiles import files_of
 from .roles import ending, open_file
 
 #: Annotations of proxies, which state files keep: `MARK` + role + "." + name of the case; at the
@@ -165,7 +165,7 @@ def values_of(source):
                      for i in range(own.GetNumberOfProxies())]
         found.append((name, str(value)))
         if name.endswith(FILE_PROPERTIES):
-            found.append((f"{name} written", _written_by(source, _list_of(value))))
+            found.append((f"{name} written", [_written(path) for path in _list_of(value)]))
     return found
 
 
@@ -196,7 +196,7 @@ def doubt_about_files(source):
     if algorithm is None:
         return ""
     when = algorithm.GetMTime()
-    written = _written_by(reader, paths)
+    written = [_written(path) for path in paths]
     former, then = _read.setdefault(reader.SMProxy.GetGlobalID(), (when, written))
     if former != when:  # it reads them again
         _read[reader.SMProxy.GetGlobalID()], then = (when, written), written
@@ -222,22 +222,14 @@ def digest_of(state):
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _written_by(source, paths):
-    """When the files at paths that a source reads were written: for each path what `_written`
-    returns."""
-    is_dicom = _reads_folders(source)
-    return [_written(os.path.dirname(path) if is_dicom and os.path.isfile(path) else path)
-            for path in paths]
-
-
 def _reads_folders(source):
     """Whether a source reads the whole folder of a file."""
     return source.SMProxy.GetXMLName().startswith("DICOM")
 
 
 def _written(path):
-    """When the files at a path were written, and their sizes: pairs by name; of a folder of all
-    files below it. Empty if there is none, as on a server.
+    """When the files that are read for a path were written, and their sizes: pairs by name. Empty
+    if there is none, as on a server.
 
     The answer is kept for 20 times as long as it took: a folder may have thousands of files.
     """
@@ -251,13 +243,11 @@ def _written(path):
 
 
 def _files_at(path):
-    """The files that a path stands for: all in a folder; a header and the data beside it."""
-    if os.path.isdir(path):
-        return [os.path.join(folder, name) for folder, _, names in os.walk(path) for name in names]
-    if ending(path) in (".mhd", ".nhdr"):
-        beside = glob.escape(path[:len(path) - len(ending(path))])
-        return glob.glob(f"{beside}.*")
-    return [path]
+    """The files that are read for a path; itself if that cannot be seen."""
+    try:
+        return files_of(path)
+    except OSError:  # deleted meanwhile
+        return [path]
 
 
 def _stat_of(file):

@@ -3,7 +3,6 @@
 
 import base64
 import datetime
-import hashlib
 import os
 from html import escape
 
@@ -14,6 +13,7 @@ from .figures import _strength_kept, _versions
 from .files import figures_of
 from .fitting import Fit
 from .maps import rest_from_deformed
+from .rolefiles import files_of, hash_of, is_dicom, is_store
 from .roles import ROLES, ending
 
 NOTICE = "Research software, not for clinical use."
@@ -231,26 +231,28 @@ def _settings(case):
 # Files --------------------------------------------------------------------------------------------
 
 
-def sha256(path):
-    """The SHA-256 hash of a file, or of a folder: that of the hashes of its files by name."""
-    total = hashlib.sha256()
-    if os.path.isdir(path):
-        for name in sorted(os.listdir(path)):
-            file = os.path.join(path, name)
-            if os.path.isfile(file):
-                total.update(sha256(file).encode())
-        return total.hexdigest()
-    with open(path, "rb") as file:
-        while block := file.read(1 << 20):
-            total.update(block)
-    return total.hexdigest()
+def _kind(path, files):
+    """What lies at a path, without names."""
+    end, count = ending(path), f"{len(files)} file{'s' if len(files) != 1 else ''}"
+    if is_store(path):
+        return "OME-Zarr store"
+    if not end and any(map(is_dicom, files)):
+        return f"DICOM series of {count}"
+    return ", ".join(filter(None, (end, count))) if files != [path] else end or "file"
 
 
-def _bytes_of(path):
-    if os.path.isdir(path):
-        return sum(os.path.getsize(os.path.join(path, name)) for name in os.listdir(path)
-                   if os.path.isfile(os.path.join(path, name)))
-    return os.path.getsize(path)
+def _about_files(path):
+    """What lies at a path, its size and its hash."""
+    kind = ending(path) or "file"
+    if not os.path.exists(path):
+        return kind, "", "the file is not on this machine"
+    try:
+        files = files_of(path)
+        if not files:
+            return "0 files", "", "the folder has no files"
+        return _kind(path, files), _size(sum(map(os.path.getsize, files))), hash_of(path)
+    except OSError as error:
+        return kind, "", f"it cannot be read: {error.strerror}"
 
 
 def _size(count):
@@ -265,12 +267,12 @@ def _files(case, names):
         for path in paths_of(source) if source is not None else []:
             if role == "measured" and path in paths_of(case.part("landmarks")):
                 continue  # one file with both
-            known = os.path.exists(path)
-            kind = "DICOM series" if known and os.path.isdir(path) else ending(path) or "file"
+            kind, size, found = _about_files(path)
+            name = os.path.basename(os.path.normpath(path))
+            if names and ending(path) != kind != "file":
+                name += f" ({kind})"
             rows.append(("landmarks, measured" if role == "measured" else role,
-                         os.path.basename(os.path.normpath(path)) if names else kind,
-                         _size(_bytes_of(path)) if known else "",
-                         sha256(path) if known else "the file is not on this machine"))
+                         name if names else kind, size, found))
     return rows
 
 

@@ -45,13 +45,14 @@ def figures_of_case(case):
 
 
 def run(job):
-    """Does the steps of a job and returns its figures."""
+    """Does the steps of a job. Returns its figures and what it wrote, paths from its folder."""
     import brainshift
     from brainshift.batching import EXPORTED, PAGE
     from brainshift.roles import paired
 
     case = brainshift.Case(**paired(
         {role: path for role, path in job["case"].items() if role != "name"}))
+    outputs = []
     for step in job["steps"]:
         print(step, flush=True)
         lacking = {each.name: each.lacks for each in case.steps}
@@ -59,24 +60,25 @@ def run(job):
             if case.tumour is not None and case.cavity is not None:
                 case.resect()
         elif step == "Report":
-            brainshift.report(case, os.path.join(job["folder"], PAGE))
+            outputs.append(brainshift.report(case, os.path.join(job["folder"], PAGE)))
         elif step == "Export":
             case.run(step, folder=os.path.join(job["folder"], EXPORTED))
+            outputs += case.exported
         elif step in ("Judge", "Refine") and lacking[step]:
             print(f"left out: it lacks {lacking[step]}", flush=True)
         else:
             case.run(step)
-    return figures_of_case(case)
+    return figures_of_case(case), [os.path.relpath(file, job["folder"]) for file in outputs]
 
 
 def main(job):
     """Does a job and writes its result, whole or not at all."""
     from brainshift.batching import RESULT
 
-    result = {"key": job["key"], "problem": "", "figures": {}}
+    result = {"key": job["key"], "problem": "", "figures": {}, "outputs": []}
     try:
         load_plugin()
-        result["figures"] = run(job)
+        result["figures"], result["outputs"] = run(job)
     except Exception as error:  # whatever it is, the batch goes on and reports it
         traceback.print_exc()
         result["problem"] = str(error) or type(error).__name__

@@ -475,7 +475,7 @@ def test_files_that_count_are_those_that_are_read():
     files = [os.path.join(folder, name) for name in ("a.dcm", "below/b.dcm", "c.nhdr", "c.raw")]
     for file in files:
         with open(file, "wb") as kept:
-            kept.write(b"x")
+            kept.write(b"NRRD0004\ndata file: c.raw\n" if file == files[2] else b"x")
 
     def count(path):
         return len(casesources._written(path))

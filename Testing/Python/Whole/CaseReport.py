@@ -4,7 +4,9 @@
 # names no patient unless asked.
 import base64
 import hashlib
+import os
 import re
+import shutil
 from html.parser import HTMLParser
 
 import numpy
@@ -131,11 +133,56 @@ def test_the_pictures_show_what_they_say():
         assert numpy.abs(picture - plain).mean() > 1.0, "no evidence is drawn"
 
 
+def test_hashes_are_of_all_that_is_read():
+    """The hash and the size of a row change with voxels beside a header, slices and chunks, the
+    hash with their names, too; the row says what they are."""
+    shutil.rmtree(scratch("hashed"), ignore_errors=True)
+    part = 128 * b"\0" + b"DICM"
+    files = {"head.mhd": b"ElementDataFile = head.raw\n", "head.raw": b"1",
+             "medium/st1/1": part, "medium/st2/2": part, "series/1.dcm": part,
+             "series/2.dcm": part, "store.zarr/zarr.json": b"{}", "store.zarr/0/c/0/0": b"1",
+             "empty/.DS_Store": b""}
+    for name, content in files.items():
+        os.makedirs(os.path.dirname(scratch(f"hashed/{name}")), exist_ok=True)
+        with open(scratch(f"hashed/{name}"), "wb") as file:
+            file.write(content)
+
+    def row(name):
+        return reporting._about_files(scratch(f"hashed/{name}"))
+    for name, kind, other in (
+            ("head.mhd", ".mhd, 2 files", "head.raw"),
+            ("medium", "DICOM series of 2 files", "medium/st2/2"),
+            ("series/1.dcm", "DICOM series of 2 files", "series/2.dcm"),
+            ("store.zarr", "OME-Zarr store", "store.zarr/0/c/0/0"),
+            ("store.zarr/zarr.json", "OME-Zarr store", "store.zarr/0/c/0/0")):
+        before = row(name)
+        assert before[0] == kind, before
+        with open(scratch(f"hashed/{other}"), "ab") as file:
+            file.write(2000 * b"2")
+        after = row(name)
+        assert before[1] != after[1] and before[2] != after[2], (name, before, after)
+    found = row("medium")[2]
+    os.rename(scratch("hashed/medium/st2/2"), scratch("hashed/medium/st2/3"))
+    assert row("medium")[2] != found, "a name changed"
+    lines = "".join(f"{hashlib.sha256(content).hexdigest()}  {name}\n" for name, content in (
+        ("1.dcm", part), ("2.dcm", part + 2000 * b"2")))  # as sha256sum prints them
+    assert row("series")[2] == row("series/1.dcm")[2] == hashlib.sha256(lines.encode()).hexdigest()
+    assert_says(" ".join(row("empty") + row("none.nii")), "has no files", "not on this machine")
+
+
 def test_a_case_with_less_has_a_shorter_page():
     simple.ResetSession()
     load_plugin()
-    case = brainshift.Case(volume=f"{FOLDER}/sub-1_T1w.nii.gz")
+    brainshift.save_volume(brainshift.Case(volume=f"{FOLDER}/sub-1_T1w.nii.gz").volume,
+                           scratch("local.mhd"))
+    with open(scratch("local.mhd"), "rb") as file:
+        header, voxels = file.read().split(b"LOCAL\n", 1)
+    for name, content in (("short.mhd", header + b"short.raw\n"), ("short.raw", voxels)):
+        with open(scratch(name), "wb") as file:
+            file.write(content)
+    case = brainshift.Case(volume=scratch("short.mhd"))
     page = text_of(brainshift.report(case, scratch("short.html")))
+    assert_says(page, ".mhd, 2 files", reporting.hash_of(scratch("short.mhd")))
     Balanced().feed(page)
     assert "Resection" not in page and "Evidence" not in page
     assert len(pictures(page)) == 8
