@@ -353,7 +353,7 @@ def show_trace(bent, measure, size):
     color.RescaleTransferFunction(-TRACE_SCALE_MM, TRACE_SCALE_MM)
     bar = simple.GetScalarBar(color, view)
     bar.Title, bar.ComponentTitle = "mm above the cortex", ""
-    bar.RangeLabelFormat = "%.0f"
+    bar.RangeLabelFormat = "{:.0f}" if "{" in bar.RangeLabelFormat else "%.0f"
     points.SetScalarBarVisibility(view, True)
     return view
 

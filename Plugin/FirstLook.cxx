@@ -356,7 +356,8 @@ void labelScale(vtkSMProxy* colors, vtkSMProxy* view)
   vtkSMProxy* bar = manager->GetScalarBarRepresentation(colors, view);
   vtkSMPropertyHelper(bar, "Title").Set("Distance to the cortex (mm)");
   vtkSMPropertyHelper(bar, "ComponentTitle").Set("");
-  vtkSMPropertyHelper(bar, "RangeLabelFormat").Set("%.0f");
+  vtkSMPropertyHelper format(bar, "RangeLabelFormat"); // of printf, from 6.1 on of std::format
+  format.Set(std::strchr(format.GetAsString(), '{') ? "{:.0f}" : "%.0f");
   bar->UpdateVTKObjects();
 }
 

@@ -190,7 +190,7 @@ def color_by(source, made, array, title, low, high, component="Magnitude"):
     color.RescaleTransferFunction(low, high)
     bar = simple.GetScalarBar(color, made)
     bar.Title, bar.ComponentTitle = title, ""
-    bar.RangeLabelFormat = "%.3g"
+    bar.RangeLabelFormat = "{:.3g}" if "{" in bar.RangeLabelFormat else "%.3g"
     bar.HorizontalTitle, bar.ScalarBarLength = 1, 0.3
     bar.WindowLocation, bar.Position = "Any Location", (0.84, 0.03)
     bar.TitleFontSize = bar.LabelFontSize = max(6, made.ViewSize[1] // 32)

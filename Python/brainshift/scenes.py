@@ -202,7 +202,8 @@ def traces(case, size):
             color.RescaleTransferFunction(-_TRACE_SCALE_MM, _TRACE_SCALE_MM)
         _frame(view, size)
         bar = simple.GetScalarBar(color, view)
-        bar.Title, bar.ComponentTitle, bar.RangeLabelFormat = "mm above the cortex", "", "%.0f"
+        bar.Title, bar.ComponentTitle = "mm above the cortex", ""
+        bar.RangeLabelFormat = "{:.0f}" if "{" in bar.RangeLabelFormat else "%.0f"
         points.SetScalarBarVisibility(view, True)
         with _strength_kept(case.bent):
             after = with_scale_bar(_pixels(view, size), _scale(view, size))
