@@ -505,11 +505,17 @@ class Case(Steps, Moments, TimedTraces, Resections):
         return {}
 
     def _distances(self, bent):
+        from paraview import servermanager
+
         cortex = self.cortex()
+        grids = self.part("at_rest")
+        contacts = self.electrodes
+        if contacts is not None and grids is not None:  # those that the fit takes to the cortex
+            contacts = servermanager.OutputPort(grids, 1)
         # One that is there stays without points, with its displays: a wrong time is soon corrected.
         traced = self.traces_now() if self.part("trace_distance") else self.traced
         for part, points, name in (("trace_distance", traced, "trace distance"),
-                                   ("contact_distance", self.electrodes, "contact distance")):
+                                   ("contact_distance", contacts, "contact distance")):
             measure = self._made(part, "TraceDistance", name, Input=points if cortex else None,
                                  Deformation=bent)
             if measure is not None:
@@ -628,6 +634,7 @@ class Case(Steps, Moments, TimedTraces, Resections):
         bent.Lattice = source
         forget_former(former)
         simple.RenameSource(result_name(bent.Input, "fit"), source)
+        self._distances(bent)
         return Fit(source)
 
     @kept
@@ -636,24 +643,6 @@ class Case(Steps, Moments, TimedTraces, Resections):
         from .registering import refine
 
         return refine(self.bent, self.comparison, **settings)
-
-    def judge(self):
-        """Judge the deformation by the landmarks, and keep the line as what Judge found.
-
-        Landmarks that the fit used are judged by leaving them out, others by their errors now.
-        """
-        fit = self.fit_source()
-        if fit is not None and self.fits_landmarks():
-            known = Fit(fit).left_out_of_used
-            self.judged = (f"leave-one-out error {known.mean():.2f} mm in the mean, "
-                           f"{known.max():.2f} mm at most, of {len(known)} landmarks"
-                           if len(known) else "no landmark is constrained by the others")
-        else:
-            errors = self.landmark_errors()
-            if errors is None:
-                raise ValueError("no landmark has a partner")
-            self.judged = repr(errors).removeprefix("TargetErrors: ")
-        return self.judged
 
     @kept
     def export(self, folder):

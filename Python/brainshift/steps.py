@@ -78,11 +78,12 @@ class Steps:
         if self.lacks_bent():
             return self.lacks_bent(), ""
         lines = []
-        for measure, name in ((self.trace_distance, "traced points"),
-                              (self.contact_distance, "contacts")):
+        for measure, points, name in (
+                (self.trace_distance, self.traces_now(), "traced points"),
+                (self.contact_distance, self.electrodes, "contacts")):
             if measure is not None:
                 figures_of(measure)
-                total = measure.Input.GetDataInformation().GetNumberOfPoints()
+                total = points.GetDataInformation().GetNumberOfPoints()
                 mean = round(measure.Mean, 2) + 0.0  # never -0.00
                 lines.append(f"{measure.Count} of {total} {name} count, {measure.RMS:.2f} mm from "
                              f"the cortex (RMS), {mean:+.2f} mm in the mean")
@@ -248,6 +249,24 @@ class Steps:
         return self.lacks_bent(), (
             f"{len(self.exported)} files: " + ", ".join(
                 os.path.basename(file) for file in self.exported) if self.exported else "")
+
+    def judge(self):
+        """Judge the deformation by the landmarks, and keep the line as what Judge found.
+
+        Landmarks that the fit used are judged by leaving them out, others by their errors now.
+        """
+        fit = self.fit_source()
+        if fit is not None and self.fits_landmarks():
+            known = Fit(fit).left_out_of_used
+            self.judged = (f"leave-one-out error {known.mean():.2f} mm in the mean, "
+                           f"{known.max():.2f} mm at most, of {len(known)} landmarks"
+                           if len(known) else "no landmark is constrained by the others")
+        else:
+            errors = self.landmark_errors()
+            if errors is None:
+                raise ValueError("no landmark has a partner")
+            self.judged = repr(errors).removeprefix("TargetErrors: ")
+        return self.judged
 
     def run(self, step, **settings):
         """Do a step.

@@ -213,6 +213,9 @@ def test_electrodes_are_fitted_by_their_sheet():
     assert len(used.left_out_of_used) == 19, used.left_out_of_used
     found = case.steps[2].found
     assert_says(found, "19 contacts of grids", "G7", "above")
+    measured = case.steps[1].found
+    assert_says(measured, "19 of 24 contacts count")  # neither what floats nor the shaft
+    assert case.contact_distance.RMS < 1.0, measured
     assert {name for name in figures_of_case(case) if "RMS" in name} == {"contacts RMS (mm)"}
     simple.SaveState(scratch("grid.pvsm"))
     clear()
