@@ -15,6 +15,7 @@ from .files import figures_of
 from .fitting import Fit
 from .maps import rest_from_deformed
 from .roles import ROLES, ending
+from .steps import strokes_of
 
 NOTICE = "Research software, not for clinical use."
 
@@ -163,11 +164,13 @@ def _fit_rows(case):
 
 def _deformation_rows(case):
     bent = figures_of(case.bent)
+    on, off = strokes_of(bent)
     return [("Largest displacement", float(bent.MaximumDisplacement), "mm",
              "Of the points that carry the deformation, in the whole volume."),
             ("Smallest Jacobian determinant", float(bent.MinimumJacobian), "",
              "Local change of volume: 1 keeps it, 0 or less is a fold."),
-            ("Strokes by hand", len(bent.Strokes) // 14, "", "Edits on top of the fit."),
+            ("Strokes by hand", on, "", "Edits on top of the fit."),
+            *([("Strokes that are switched off", off, "", "They do not count.")] if off else []),
             ("Shortened strokes", int(bent.ShortenedStrokes), "",
              "Strokes that the fold guard reduced.")]
 

@@ -21,6 +21,7 @@ Step.__doc__ = """A step of a case.
 - `found`: what it found, in a line with units, and why that may be wrong; or an empty text
 """
 
+#: Numbers of a stroke; the last one says whether it is on.
 _NUMBERS_PER_STROKE = 14
 
 #: The least Jacobian determinant that the fold guard allows.
@@ -35,6 +36,13 @@ def _joined(line, sentences):
     new = [sentence for sentence in sentences if sentence.rstrip(".") not in line]
     parts = [part for part in (line, *new) if part]
     return ". ".join([*(part.rstrip(".") for part in parts[:-1]), *parts[-1:]])
+
+
+def strokes_of(bent):
+    """How many strokes of a deformation are on, and how many are switched off."""
+    switches = list(bent.Strokes)[_NUMBERS_PER_STROKE - 1::_NUMBERS_PER_STROKE]
+    on = sum(switch != 0.0 for switch in switches)
+    return on, len(switches) - on
 
 
 def _cost(value):
@@ -156,10 +164,11 @@ class Steps:
         if self.lacks_bent():
             return self.lacks_bent(), ""
         bent = figures_of(self.bent)
-        count = len(bent.Strokes) // _NUMBERS_PER_STROKE
-        if not count:
-            return "", ""
-        return "", (f"{count} strokes, largest displacement {bent.MaximumDisplacement:.1f} mm, "
+        on, off = strokes_of(bent)
+        if not on:
+            return "", f"no stroke counts, {off} are switched off" if off else ""
+        return "", (f"{on} strokes" + (f", and {off} that are switched off" if off else "")
+                    + f", largest displacement {bent.MaximumDisplacement:.1f} mm, "
                     f"smallest Jacobian determinant {bent.MinimumJacobian:.2f}")
 
     def _step_refine(self):
@@ -233,7 +242,7 @@ class Steps:
     def _doubts_about_tissue(self):
         """A fold belongs to the step that changed the deformation last."""
         bent = figures_of(self.bent)
-        step = ("By hand" if len(bent.Strokes) else
+        step = ("By hand" if strokes_of(bent)[0] else
                 "Refine" if is_kind(bent.Lattice, "RefinedLattice") else
                 "Fit" if self.fit_source() is not None else "Look")
         if bent.MinimumJacobian < SMALLEST_DETERMINANT:

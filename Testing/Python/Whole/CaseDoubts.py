@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that a case does not claim more than it knows: landmarks that a fit used before a
+# refinement judge nothing, a refinement is of the reference that it was made with, contacts have
+# the error of their sheet, and a doubt is said also where a step lacks something.
+import os
+import shutil
+
+import numpy
+from brainshift_testing import assert_says, load_plugin, run_tests, scratch
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from brainshift import reporting  # noqa: E402
+from brainshift.worker import figures_of_case  # noqa: E402
+from paraview import simple  # noqa: E402
+from patient_testing import MIDDLE, RADIUS, TOP, make_patient, sunk  # noqa: E402
+
+FOLDER = scratch("doubts")
+STROKE_SWITCH = 13  # the last of its 14 numbers
+make_patient(FOLDER)
+
+
+def path(name):
+    return os.path.join(FOLDER, name)
+
+
+def begun(**roles):
+    """A new session with a case of these files, beside volume and brain."""
+    simple.ResetSession()
+    load_plugin()
+    files = {"volume": "sub-1_T1w.nii.gz", "brain": "sub-1_brainmask.nii.gz", **roles}
+    return brainshift.Case(**{role: path(file) for role, file in files.items()})
+
+
+def found(case, name):
+    return next(step for step in case.steps if step.name == name)
+
+
+def refined(case):
+    case.refine(callback=lambda _: False)
+    assert case.fit_source() is None
+    return case
+
+
+def grid(name, prefix, count=(4, 5), extra=None):
+    """Writes a table of contacts of a grid on the cortex under the opening."""
+    extra = extra or {}
+    rows, columns = count
+    steps = 10.0 * numpy.mgrid[:rows, :columns].reshape(2, -1).T
+    steps -= steps.mean(axis=0) - 0.1
+    angles = numpy.linalg.norm(steps, axis=1) / RADIUS
+    flat = steps / numpy.linalg.norm(steps, axis=1)[:, None]
+    rest = MIDDLE + RADIUS * numpy.column_stack(
+        (flat * numpy.sin(angles)[:, None], numpy.cos(angles)))
+    with open(path(name), "w", encoding="utf-8") as file:
+        file.write("\t".join(["name", "x", "y", "z", *extra]) + "\n")
+        for i, at in enumerate(sunk(rest).tolist()):
+            file.write("\t".join([f"{prefix}{i + 1}", *map(str, at), *extra.values()]) + "\n")
+
+
+def test_strokes_that_are_off_are_no_edits():
+    case = begun()
+    one = list(brainshift.soft(TOP, (0, 0, -5), 30))
+    off = list(one)
+    off[STROKE_SWITCH] = 0.0
+    case.bent.Strokes = one + off
+    assert_says(found(case, "By hand").found, "1 strokes, and 1 that are switched off")
+    rows = {row[0]: row[1] for row in reporting._deformation_rows(case)}
+    assert rows["Strokes by hand"] == 1 and rows["Strokes that are switched off"] == 1
+    case.bent.Strokes = off
+    assert found(case, "By hand").found == "no stroke counts, 1 are switched off"
+    case.bent.Strokes = []
+    assert found(case, "By hand").state == "ready"
+
+
+run_tests(globals())
