@@ -328,6 +328,7 @@ def _tiles(case, fit, distances):
                           f"; {100 * resection.level:.0f} % interval {ends[0]:.1f} to "
                           f"{ends[1]:.1f} ml" if ends else "; no interval")))
     left_out = left_out_mean(fit) if case.fits_landmarks() else None
+    bent = figures_of(case.bent)
     for name, before, after, unit, _ in distances:
         if name == "Landmarks, in the mean" and left_out is not None:
             found.append(("Landmarks left out, in the mean", f"{left_out:.2f} {unit}",
@@ -335,8 +336,8 @@ def _tiles(case, fit, distances):
         elif name.endswith(", RMS") or name == "Landmarks, in the mean":
             found.append((name, f"{after:.2f} {unit}", f"{before:.2f} {unit} without the "
                           "deformation"))
-    found.append(("Largest displacement", f"{float(case.bent.MaximumDisplacement):.1f} mm",
-                  f"smallest Jacobian determinant {float(case.bent.MinimumJacobian):.2f}"))
+    found.append(("Largest displacement", f"{float(bent.MaximumDisplacement):.1f} mm",
+                  f"smallest Jacobian determinant {float(bent.MinimumJacobian):.2f}"))
     return '<div class="tiles">' + "".join(
         f'<div class="tile"><span class="soft">{escape(title)}</span><b>{escape(value)}</b>'
         f'<span class="soft">{escape(note)}</span></div>'

@@ -73,4 +73,11 @@ def test_strokes_that_are_off_are_no_edits():
     assert found(case, "By hand").state == "ready"
 
 
+def test_the_first_tile_has_figures_of_now():
+    case = begun()
+    case.bent.UpdatePipeline()
+    case.bent.Strokes = brainshift.soft(TOP, (0, 0, -5), 30)
+    assert "<b>0.0 mm</b>" not in reporting._tiles(case, None, [])
+
+
 run_tests(globals())
