@@ -227,9 +227,9 @@ class Steps:
         if known.warning or known.share < 1.0:
             yield "Fit", known.warning or f"The fold guard applied {100 * known.share:.3g} % of it"
         grids = self.part("at_rest")
-        if not self.fits_landmarks():
-            if grids is not None:
-                yield "Fit", figures_of(grids).GetPropertyValue("Warning")
+        if grids is not None:
+            yield "Fit", figures_of(grids).GetPropertyValue("Warning")
+        if self.traced is not None or self.electrodes is not None:
             yield "Fit", self._cavity_doubt()
 
     def _doubts_about_reference(self):

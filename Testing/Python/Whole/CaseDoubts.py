@@ -58,6 +58,24 @@ def grid(name, prefix, count=(4, 5), extra=None):
             file.write("\t".join([f"{prefix}{i + 1}", *map(str, at), *extra.values()]) + "\n")
 
 
+def test_doubts_of_grids_and_cavity_stay_beside_landmarks():
+    grid("b_electrodes.tsv", "B", count=(4, 4))
+    with open(path("b_electrodes.tsv"), encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    name, x, y, z = lines[6].split("\t")
+    lines[6] = "\t".join([name, x, y, str(float(z) + 6.0)])  # it floats
+    with open(path("b_electrodes.tsv"), "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+    case = begun(electrodes="b_electrodes.tsv", traces="pointer.csv", cavity="cavity.nii.gz",
+                 reference="sub-1_postop.nii.gz")
+    case.run("Fit")
+    case.comparison.ReferenceTranslation = [2.0, 0.0, 0.0]
+    for landmarks in (None, path("targets.csv")):
+        case.landmarks = landmarks
+        assert case.fits_landmarks() == bool(landmarks)
+        assert_says(found(case, "Fit").found, name, "above", "The reference was moved")
+
+
 def test_strokes_that_are_off_are_no_edits():
     case = begun()
     one = list(brainshift.soft(TOP, (0, 0, -5), 30))
