@@ -526,11 +526,12 @@ class Case(Steps, Moments, TimedTraces, Resections):
         """An Electrode Grids of the electrodes, or None."""
         cortex = self.cortex()
         surface = cortex.pop("Segmentation", None) or self.volume
-        is_new = self.part("at_rest") is None
+        former = self.part("at_rest")
+        contacts = former.Input if former is not None else None
         grids = self._made("at_rest", "ElectrodeGrids", "contacts at rest",
                            Input=self.electrodes if cortex else None, Cortex=surface)
-        if grids is not None and is_new:
-            self._set(grids, shapes_of(self.electrodes))
+        if grids is not None and contacts != self.electrodes:  # else a user's own shapes stay
+            self._set(grids, {"ContactGroups": [], "Shapes": [], **shapes_of(self.electrodes)})
         if grids is not None:
             self._set(grids, {**cortex, "Opening": self.part("opening"),
                               "OpeningCentre": list(ball[0]), "OpeningRadius": float(ball[1])})

@@ -58,6 +58,22 @@ def grid(name, prefix, count=(4, 5), extra=None):
             file.write("\t".join([f"{prefix}{i + 1}", *map(str, at), *extra.values()]) + "\n")
 
 
+def test_other_electrodes_have_shapes_of_their_own():
+    grid("a_electrodes.tsv", "A", extra={"group": "A", "type": "grid", "dimension": "[4x5]"})
+    grid("b_electrodes.tsv", "B")
+    case = begun(electrodes="a_electrodes.tsv")
+    case.run("Fit")
+    grids = case.part("at_rest")
+    assert list(grids.Shapes) == ["A=grid 4x5"] and list(grids.ContactGroups) == ["A"] * 20
+    grids.Shapes = ["A=4x5 10mm"]
+    case.holds_outside = False
+    assert list(grids.Shapes) == ["A=4x5 10mm"], "a user's own stay"
+    case.electrodes = path("b_electrodes.tsv")
+    assert case.part("at_rest") == grids
+    assert list(grids.Shapes) == [] and list(grids.ContactGroups) == []
+    assert_says(found(case, "Fit").found, "20 contacts of grids")
+
+
 def test_doubts_of_grids_and_cavity_stay_beside_landmarks():
     grid("b_electrodes.tsv", "B", count=(4, 4))
     with open(path("b_electrodes.tsv"), encoding="utf-8") as file:
