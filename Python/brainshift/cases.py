@@ -677,7 +677,8 @@ class Case(Steps, Moments, TimedTraces, Resections):
     def __repr__(self):
         roles = ", ".join(role for role in ROLES if getattr(self, role) is not None) or "no role"
         lines = [f"  {step.name}: {step.state}"
-                 + (f", {step.lacks}" if step.lacks else f": {step.found}" if step.found else "")
+                 + (f", {step.lacks}" if step.lacks else "")
+                 + (f": {step.found}" if step.found else "")
                  for step in self.steps]
         if self.resection is not None:
             lines.append(f"  {self.resection}")

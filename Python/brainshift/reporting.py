@@ -388,7 +388,8 @@ def _sections(case, names):
         f'<p class="warning">{escape(text)}</p>' for text in _warnings(case))
     yield "Steps", _table(("Step", "State", "Found or missing"), [
         (step.name, step.state, f"{len(case.exported)} files"
-         if step.name == "Export" and case.exported and not names else step.found or step.lacks)
+         if step.name == "Export" and case.exported and not names
+         else ". ".join(filter(None, (step.lacks, step.found))))
         for step in case.steps])
     yield from _pictures(case, fit)
     if case.resection is not None:

@@ -18,7 +18,8 @@ Step.__doc__ = """A step of a case.
 - `name`: Look, Measure, Fit, By hand, Refine, Judge or Export
 - `state`: `"done"`, `"ready"`, or `"lacks"` if something is missing
 - `lacks`: what is missing, or an empty text
-- `found`: what it found, in a line with units, and why that may be wrong; or an empty text
+- `found`: what it found, in a line with units, and why that may be wrong, also of a result that
+  is left while something is missing; or an empty text
 """
 
 #: Numbers of a stroke; the last one says whether it is on.
@@ -59,7 +60,8 @@ class Steps:
         for name in STEPS:
             lacks, line = getattr(self, "_step_" + name.lower().replace(" ", "_"))()
             state = "lacks" if lacks else "done" if line else "ready"
-            why = [sentence for step, sentence in doubts if step == name and not lacks]
+            why = [sentence for step, sentence in doubts
+                   if step == name and sentence != f"No {lacks}"]
             found.append(Step(name, state, lacks, _joined(line, why)))
         return found
 
@@ -222,6 +224,9 @@ class Steps:
         fit = self.fit_source()
         if fit is None:
             return
+        if not self.cortex() and (self.traced is not None or self.electrodes is not None):
+            yield "Fit", ("The cortex of the fit was taken away: what bends the volume is not what "
+                          "a new fit would find. Choose a brain, or set surface_level")
         known = Fit(figures_of(fit))
         yield "Fit", reason_of(fit)
         if known.warning or known.share < 1.0:

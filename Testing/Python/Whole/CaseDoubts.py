@@ -107,6 +107,21 @@ def test_strokes_that_are_off_are_no_edits():
     assert found(case, "By hand").state == "ready"
 
 
+def test_a_fit_without_its_brain_is_doubted():
+    case = begun(traces="pointer.csv")
+    case.run("Fit")
+    assert "Fit" not in case.doubtful()
+    case.brain = None
+    step = found(case, "Fit")
+    assert step.state == "lacks", step
+    assert_says(step.found, "The cortex of the fit was taken away")
+    assert_says(repr(case), "Fit: lacks, a brain", "taken away")
+    assert "Fit" in case.doubtful()
+    assert any("taken away" in text for text in reporting._warnings(case))
+    case.brain = path("sub-1_brainmask.nii.gz")
+    assert "Fit" not in case.doubtful(), case.doubts()
+
+
 def test_the_first_tile_has_figures_of_now():
     case = begun()
     case.bent.UpdatePipeline()
