@@ -58,6 +58,80 @@ def grid(name, prefix, count=(4, 5), extra=None):
             file.write("\t".join([f"{prefix}{i + 1}", *map(str, at), *extra.values()]) + "\n")
 
 
+def test_landmarks_that_a_fit_used_judge_no_refinement():
+    case = begun(traces="pointer.csv", landmarks="targets.csv", reference="sub-1_postop.nii.gz")
+    shutil.copy(path("targets.csv"), path("others.csv"))
+    case.run("Fit")
+    refined(case)
+    said = "A fit before the refinement used the landmarks"
+    assert_says(found(case, "Judge").found, said)
+    assert_says(case.run("Judge").found, said, "no accuracy", "of 8 landmarks")
+    assert "Judge" in case.doubtful()
+    assert case.run("Judge").found.count(said) == 1
+    assert not any("landmarks" in name for name in figures_of_case(case))
+    rows = {row[0]: row[-1] for row in reporting._distances(case)}
+    assert_says(rows["Landmarks, in the mean"], "no accuracy follows")
+    assert "Landmarks" not in reporting._tiles(case, None, reporting._distances(case))
+    simple.SaveState(scratch("refined.pvsm"))
+    simple.ResetSession()
+    load_plugin()
+    simple.LoadState(scratch("refined.pvsm"))
+    case, = brainshift.Case.all()
+    assert case.landmarks_fitted_before(), "a state keeps it"
+    case.landmarks = path("targets.csv")
+    assert case.landmarks_fitted_before(), "the same file opened again"
+    refined(case)
+    assert case.landmarks_fitted_before(), "a second refinement"
+    assert "leave-one-out" not in case.run("Fit").found, "its base was fitted to them"
+    assert not any("landmarks" in name for name in figures_of_case(case))
+    case.landmarks = path("others.csv")
+    assert not case.landmarks_fitted_before()
+    assert_says(found(case, "Fit").found, "leave-one-out")
+    assert "landmarks left out, mean (mm)" in figures_of_case(case)
+
+
+def test_landmarks_that_no_fit_used_judge_a_refinement():
+    case = begun(traces="pointer.csv", reference="sub-1_postop.nii.gz")
+    case.landmarks_judge = True
+    case.landmarks = path("targets.csv")
+    case.run("Fit")
+    refined(case)
+    assert_says(case.run("Judge").found, "of 8 landmarks", "mm on average")
+    assert "Judge" not in case.doubtful() and "landmarks mean (mm)" in figures_of_case(case)
+
+
+def test_a_refinement_is_of_its_reference():
+    case = refined(begun(reference="sub-1_postop.nii.gz"))
+    shutil.copy(path("sub-1_postop.nii.gz"), path("second.nii.gz"))
+    good = found(case, "Refine").found
+    assert_says(good, "cost", "before")
+
+    def said(words):
+        step = found(case, "Refine")
+        assert_says(step.found, f"made with {words}", "Refine again")
+        assert "cost" not in step.found and "Refine" in case.doubtful(), step
+        return step.state
+    case.comparison.ReferenceTranslation = [2.0, 0.0, 0.0]
+    assert said("another position of the reference") == "done"
+    case.comparison.ReferenceTranslation = [0.0, 0.0, 0.0]
+    assert found(case, "Refine").found == good
+    case.cavity = path("cavity.nii.gz")
+    said("another cavity")
+    case.cavity = None
+    case.reference = path("sub-1_postop.nii.gz")
+    assert found(case, "Refine").found == good, "the same file"
+    simple.SaveState(scratch("reference.pvsm"))
+    simple.ResetSession()
+    load_plugin()
+    simple.LoadState(scratch("reference.pvsm"))
+    case, = brainshift.Case.all()
+    assert found(case, "Refine").found == good, "a state keeps it"
+    case.reference = path("second.nii.gz")
+    said("another reference")
+    case.reference = None
+    assert said("a reference that was taken away") == "lacks"
+
+
 def test_other_electrodes_have_shapes_of_their_own():
     grid("a_electrodes.tsv", "A", extra={"group": "A", "type": "grid", "dimension": "[4x5]"})
     grid("b_electrodes.tsv", "B")
@@ -72,6 +146,18 @@ def test_other_electrodes_have_shapes_of_their_own():
     assert case.part("at_rest") == grids
     assert list(grids.Shapes) == [] and list(grids.ContactGroups) == []
     assert_says(found(case, "Fit").found, "20 contacts of grids")
+
+
+def test_contacts_have_the_error_of_their_sheet():
+    grid("b_electrodes.tsv", "B")
+    case = begun(electrodes="b_electrodes.tsv")
+    case.run("Fit")
+    sheet = brainshift.electrodes(path("b_electrodes.tsv"), case.brain).leave_one_out.mean()
+    assert_says(found(case, "Fit").found, f"leave-one-out error of the sheet {sheet:.2f} mm")
+    rows, _ = reporting._fit_rows(case)
+    errors = [row for row in rows if "eave-one-out error" in row[0]]
+    assert [row[0] for row in errors] == ["Leave-one-out error of the sheet, mean"], errors
+    assert abs(errors[0][1] - sheet) < 0.01, (errors, sheet)
 
 
 def test_doubts_of_grids_and_cavity_stay_beside_landmarks():
