@@ -17,6 +17,7 @@ load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from brainshift import casesources, dock  # noqa: E402
 from brainshift.points import read_from  # noqa: E402
+from brainshift.roles import proposed  # noqa: E402
 from brainshift.worker import figures_of_case  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 from patient_testing import (MIDDLE, RADIUS, TOP, cap, make_patient, sunk,  # noqa: E402
@@ -493,21 +494,30 @@ def test_columns_of_landmarks_are_taken_by_their_names():
             ("x_measured y_measured z_measured x_rest y_rest z_rest", True),
             ("post_x post_y post_z pre_x pre_y pre_z", True),
             ("x2 y2 z2 x1 y1 z1", True), ("r a s x_rest y_rest z_rest", True),
-            ("r a s x_meas y_meas z_meas", False), ("x_a y_a z_a x_b y_b z_b", False)):
+            ("r a s x_meas y_meas z_meas", False), ("x y z us_x us_y us_z", False),
+            ("source_x source_y source_z target_x target_y target_z", False),
+            ("moving_x moving_y moving_z fixed_x fixed_y fixed_z", True)):
         first, second = (measured, rest) if is_turned else (rest, measured)
         table(path("pairs.csv"), header.split(), [first[0] + second[0]])
         with messages() as said:
             case = brainshift.Case(landmarks=path("pairs.csv"))
-        is_unknown = header.split()[0] in ("x2", "x_a")  # words that say nothing known
+        is_unknown = any(word in header for word in ("x2", "us_x", "source"))  # to the reader
         assert ("it is not known" in said.text) == is_unknown, (header, said.text)
         places = [read_from(source).positions.tolist() for source in case.landmarks]
         assert places == [rest, measured], (header, places)
         simple.ResetSession()
         load_plugin()
-    for header in ("r a s x y z", "x y z r a s", "x_pre y_pre z_pre x_rest y_rest z_rest"):
+    for header in ("r a s x y z", "x y z r a s", "x_pre y_pre z_pre x_rest y_rest z_rest",
+                   "x_a y_a z_a x_b y_b z_b", "x y z mni_x mni_y mni_z",
+                   "ct_x ct_y ct_z mri_x mri_y mri_z"):
         table(path("pairs.csv"), header.split(), [rest[0] + measured[0]])
-        refused(ValueError, ["pairs.csv", "at rest"],
+        refused(ValueError, ["pairs.csv", "at rest", "x_measured", "leave one set out"],
                 lambda: brainshift.Case(landmarks=path("pairs.csv")))
+        for name, role in (("pairs", None), ("contacts", "electrodes"), ("traces", "traces")):
+            shutil.copy(path("pairs.csv"), scratch(f"{name}.csv"))
+            proposal, = proposed([scratch(f"{name}.csv")])
+            assert proposal.role == role, (header, proposal)
+            assert role or "leave one set out" in proposal.reason, proposal
     os.remove(path("pairs.csv"))
 
 
