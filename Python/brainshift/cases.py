@@ -7,8 +7,9 @@ import uuid
 
 from .arguments import positive, vector
 from .casesources import (
-    MARK, OPENED, RESULT, SETTING, digest_of, doubt_about_files, free_name, give_name, inputs_of,
-    kept, marks, opened, require_kind, result_name, settings_at, sources, stem, upstream, values_of)
+    MARK, OPENED, RESULT, SETTING, all_values_of, digest_of, doubt_about_files, free_name,
+    give_name, inputs_of, kept, marks, opened, require_kind, result_name, settings_at, sources,
+    stem, upstream, values_of)
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
 from .grids import shapes_of
@@ -276,13 +277,15 @@ class Case(Steps, Moments, TimedTraces, Resections):
 
     def _state(self):
         """What results depend on: roles, settings and the deformation as they are."""
-        parts = [self.part(role) for role in (*ROLES, "measured", "bent", "comparison",
-                                             "at_rest", "timed")]
+        roles = [self.part(role) for role in (*ROLES, "measured")]
+        parts = [self.part(part) for part in ("bent", "comparison", "at_rest", "timed")]
         bent = self.bent
         parts.append(bent.Lattice if bent else None)
         settings = [getattr(self, name) for name, kind in vars(Case).items()
                     if isinstance(kind, _Setting)]
-        return [values_of(part) for part in parts if part], settings, self.opening_ball()
+        values = {each[0]: each for each in [
+            *all_values_of(filter(None, roles)), *(values_of(part) for part in parts if part)]}
+        return list(values.values()), settings, self.opening_ball()
 
     bent = property(lambda self: self.part("bent"))
     comparison = property(lambda self: self.part("comparison"))

@@ -405,6 +405,34 @@ def test_results_are_forgotten_when_a_file_of_the_volume_changes():
         assert brainshift.Case.all()[0].judged == "another", "nothing was written since"
 
 
+def test_what_is_above_a_role_counts():
+    file = scratch("above.nii.gz")
+    shutil.copy(path("sub-1_Tumor.nii.gz"), file)
+    clear()
+    reader = simple.OpenDataFile(file)  # as File > Open
+    moved = simple.Calculator(Input=reader, ResultArrayName="labels", Function="2*scalars")
+    twice = simple.Calculator(Input=moved, ResultArrayName="labels 2", Function="2*scalars")
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), tumour=twice)
+    assert casesources.paths_of(case.tumour) == [file]
+    case.judged = "a line"
+    simple.SaveState(scratch("above.pvsm"))
+    assert case.judged == "a line"
+    moved.Function = "3*scalars"
+    assert case.judged is None, "a filter above it"
+    os.utime(file, ns=(1, 1))
+    casesources._seen.clear()  # as a moment later
+    assert_says(case.steps[0].found, "Tumour: its file was written after it was read")
+    clear()
+    shutil.copy(path("sub-1_Tumor.nii.gz"), file)
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), tumour=simple.Calculator(
+        Input=simple.OpenDataFile(file), ResultArrayName="labels", Function="2*scalars"))
+    case.judged = "kept"
+    simple.SaveState(scratch("above.pvsm"))
+    clear()
+    simple.LoadState(scratch("above.pvsm"))
+    assert brainshift.Case.all()[0].judged == "kept", "a state keeps it"
+
+
 def test_a_file_that_was_written_after_it_was_read_is_said():
     points, brain = scratch("later.csv"), scratch("later.nii.gz")
     shutil.copy(path("pointer.csv"), points)
