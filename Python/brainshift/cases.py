@@ -10,6 +10,7 @@ from .casesources import (
     MARK, OPENED, RESULT, SETTING, all_values_of, digest_of, doubt_about_files, free_name,
     give_name, inputs_of, kept, marks, opened, require_kind, result_name, settings_at, sources,
     stem, upstream, values_of)
+from .exporting import Exports
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
 from .grids import shapes_of
@@ -110,7 +111,7 @@ def _level(name, value):
     return None if value is None else float(value)
 
 
-class Case(Steps, Moments, TimedTraces, Resections):
+class Case(Steps, Moments, TimedTraces, Resections, Exports):
     """A patient: what is known, by roles, and the pipeline that it makes.
 
         case = brainshift.Case(volume="T1.nii.gz", brain="mask.nii.gz", traces="trace.csv")
@@ -647,35 +648,6 @@ class Case(Steps, Moments, TimedTraces, Resections):
         from .registering import refine
 
         return refine(self.bent, self.comparison, **settings)
-
-    @kept
-    def export(self, folder):
-        """Write the bent volume, the displacement field and, after `resect`, the tumour's labels.
-
-        - `folder`: path of the folder. It is made if it is missing.
-
-        Returns the paths of the files.
-        """
-        from paraview import simple
-
-        from .files import save_field, save_volume
-        from .views import world_axes
-
-        os.makedirs(folder, exist_ok=True)
-        name = os.path.join(folder, stem(self.volume) + self.moment_ending())
-        baked = simple.BakeDeformation(Input=self.bent, Interpolation="Cubic")
-        try:
-            save_volume(baked, f"{name}_bent.nii.gz")
-        finally:
-            simple.Delete(baked)
-        save_field(self.bent, f"{name}_field.nii.gz", world=world_axes(self.volume) or "RAS")
-        files = [f"{name}_bent.nii.gz", f"{name}_field.nii.gz"]
-        if self.known_resection() is not None:
-            for frame in ("rest", "deformed"):
-                files.append(f"{name}_tumour_{frame}.nii.gz")
-                self.resection.save(files[-1], frame, world_axes(self.volume))
-        self.exported = files
-        return files
 
     def __repr__(self):
         roles = ", ".join(role for role in ROLES if getattr(self, role) is not None) or "no role"

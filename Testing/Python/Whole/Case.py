@@ -547,6 +547,8 @@ def test_columns_of_landmarks_are_taken_by_their_names():
             assert proposal.role == role, (header, proposal)
             assert role or "leave one set out" in proposal.reason, proposal
     os.remove(path("pairs.csv"))
+    shutil.copy(path("targets.csv"), scratch("contacts.csv"))
+    assert proposed([scratch("contacts.csv")])[0].role == "landmarks", "its columns say which"
 
 
 def test_two_cases_may_share_sources():
