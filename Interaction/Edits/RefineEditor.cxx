@@ -3,6 +3,7 @@
 
 #include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/FitEditor.h"
+#include "Interaction/Edits/Lineage.h"
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
@@ -240,6 +241,7 @@ QString RefineEditor::beginRefinement(const RefineSettings& settings)
   SCOPED_UNDO_EXCLUDE();
   const vtkSmartPointer<vtkSMProxy> compared = comparisonFor(this->Source, settings);
   vtkSMSourceProxy::SafeDownCast(compared)->UpdatePipeline();
+  this->Compared = comparedBy(this->Source->getProxy(), compared);
   vtkSMProxy* run = this->makeRun(compared);
   vtkSMPropertyHelper(run, "Similarity").Set(settings.similarity);
   vtkSMPropertyHelper(run, "Stiffness").Set(settings.stiffness);
@@ -382,6 +384,7 @@ void RefineEditor::putResult()
     vtkSMProxy* deformation = this->Source->getProxy();
     SCOPED_UNDO_SET(tr("Refine"));
     vtkSmartPointer<vtkSMProxy> lattice = this->lattice();
+    const QJsonArray landmarks = landmarksFittedBy(lattice);
     // The lattice of an earlier refinement is used again, unless another source uses it.
     if (isRefined(lattice) && !isUsedByOthers(lattice, deformation))
     {
@@ -396,6 +399,7 @@ void RefineEditor::putResult()
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", deformation);
     this->putIn(lattice, this->Points);
     lattice->SetAnnotation("BrainShift.Refined", this->found().constData());
+    keepFitted(lattice, landmarks);
   }
   vtkSMProxy* proxy = this->Source->getProxy();
   vtkSMSourceProxy::SafeDownCast(proxy)->UpdatePipeline();
@@ -409,7 +413,7 @@ QByteArray RefineEditor::found() const
   const RefineFigures& at = this->Figures;
   const QJsonObject told{ { "steps", at.steps }, { "finished", at.done >= 1.0 },
     { "cost", at.cost }, { "before", at.costBefore }, { "trust", at.trust },
-    { "warning", at.warning } };
+    { "warning", at.warning }, { "of", this->Compared } };
   return QJsonDocument(told).toJson(QJsonDocument::Compact);
 }
 

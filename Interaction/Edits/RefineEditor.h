@@ -8,6 +8,7 @@
 #include "Interaction/Edits/LiveRun.h"
 #include "Interaction/Workarounds/Selections.h"
 
+#include <QJsonObject>
 #include <QList>
 #include <QPointer>
 
@@ -107,6 +108,7 @@ private:
 
   RefineFigures Figures;
   QList<double> Costs;
+  QJsonObject Compared;       ///< What it is made of.
   std::vector<double> Start;  ///< Control points: 3 numbers each (mm, world axes), x fastest.
   std::vector<double> Points; ///< The same, after the last step.
 

@@ -141,12 +141,14 @@ void StepRows::show(const QJsonArray& told)
     const bool isDone = step["state"].toString() == "done";
     row.button->setText(wordsOf(step["name"].toString()).label);
     row.button->setEnabled(lacks.isEmpty());
-    row.isDoubtful = step["doubtful"].toBool() && lacks.isEmpty();
+    const QString found = step["found"].toString(); // beside what is missing it says why to doubt
+    row.isDoubtful = step["doubtful"].toBool();
     row.sign->setText(row.isDoubtful ? "!" : isDone ? QString(QChar(0x2713)) : QString());
     row.sign->setToolTip(
       row.isDoubtful ? StepRows::tr("Doubtful: read what it found.") : QString());
-    row.text->setText(
-      lacks.isEmpty() ? step["found"].toString() : StepRows::tr("Needs %1").arg(lacks));
+    row.text->setText(lacks.isEmpty()
+        ? found
+        : StepRows::tr("Needs %1").arg(lacks) + (found.isEmpty() ? QString() : ". " + found));
     row.lacks = !lacks.isEmpty();
     this->paint(row);
     fitHeight(row.text);
@@ -163,7 +165,7 @@ void StepRows::paint(const Row& row)
   const Grade grade = row.isDoubtful ? Grade::Bad : Grade::Good;
   palette.setColor(QPalette::WindowText, gradeColor(grade, palette, false));
   row.sign->setPalette(palette);
-  palette.setColor(QPalette::WindowText, row.lacks ? quiet : found);
+  palette.setColor(QPalette::WindowText, row.lacks && !row.isDoubtful ? quiet : found);
   row.text->setPalette(palette);
 }
 

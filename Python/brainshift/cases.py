@@ -7,8 +7,10 @@ import uuid
 
 from .arguments import positive, vector
 from .casesources import (
-    MARK, OPENED, RESULT, SETTING, digest_of, doubt_about_files, free_name, give_name, inputs_of,
-    kept, marks, opened, require_kind, result_name, settings_at, sources, stem, upstream, values_of)
+    MARK, OPENED, RESULT, SETTING, all_values_of, digest_of, doubt_about_files, free_name,
+    give_name, inputs_of, kept, marks, opened, require_kind, result_name, settings_at, sources,
+    stem, upstream, values_of)
+from .exporting import Exports
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
 from .grids import shapes_of
@@ -109,7 +111,7 @@ def _level(name, value):
     return None if value is None else float(value)
 
 
-class Case(Steps, Moments, TimedTraces, Resections):
+class Case(Steps, Moments, TimedTraces, Resections, Exports):
     """A patient: what is known, by roles, and the pipeline that it makes.
 
         case = brainshift.Case(volume="T1.nii.gz", brain="mask.nii.gz", traces="trace.csv")
@@ -276,13 +278,15 @@ class Case(Steps, Moments, TimedTraces, Resections):
 
     def _state(self):
         """What results depend on: roles, settings and the deformation as they are."""
-        parts = [self.part(role) for role in (*ROLES, "measured", "bent", "comparison",
-                                             "at_rest", "timed")]
+        roles = [self.part(role) for role in (*ROLES, "measured")]
+        parts = [self.part(part) for part in ("bent", "comparison", "at_rest", "timed")]
         bent = self.bent
         parts.append(bent.Lattice if bent else None)
         settings = [getattr(self, name) for name, kind in vars(Case).items()
                     if isinstance(kind, _Setting)]
-        return [values_of(part) for part in parts if part], settings, self.opening_ball()
+        values = {each[0]: each for each in [
+            *all_values_of(filter(None, roles)), *(values_of(part) for part in parts if part)]}
+        return list(values.values()), settings, self.opening_ball()
 
     bent = property(lambda self: self.part("bent"))
     comparison = property(lambda self: self.part("comparison"))
@@ -505,11 +509,17 @@ class Case(Steps, Moments, TimedTraces, Resections):
         return {}
 
     def _distances(self, bent):
+        from paraview import servermanager
+
         cortex = self.cortex()
+        grids = self.part("at_rest")
+        contacts = self.electrodes
+        if contacts is not None and grids is not None:  # those that the fit takes to the cortex
+            contacts = servermanager.OutputPort(grids, 1)
         # One that is there stays without points, with its displays: a wrong time is soon corrected.
         traced = self.traces_now() if self.part("trace_distance") else self.traced
         for part, points, name in (("trace_distance", traced, "trace distance"),
-                                   ("contact_distance", self.electrodes, "contact distance")):
+                                   ("contact_distance", contacts, "contact distance")):
             measure = self._made(part, "TraceDistance", name, Input=points if cortex else None,
                                  Deformation=bent)
             if measure is not None:
@@ -520,11 +530,12 @@ class Case(Steps, Moments, TimedTraces, Resections):
         """An Electrode Grids of the electrodes, or None."""
         cortex = self.cortex()
         surface = cortex.pop("Segmentation", None) or self.volume
-        is_new = self.part("at_rest") is None
+        former = self.part("at_rest")
+        contacts = former.Input if former is not None else None
         grids = self._made("at_rest", "ElectrodeGrids", "contacts at rest",
                            Input=self.electrodes if cortex else None, Cortex=surface)
-        if grids is not None and is_new:
-            self._set(grids, shapes_of(self.electrodes))
+        if grids is not None and contacts != self.electrodes:  # else a user's own shapes stay
+            self._set(grids, {"ContactGroups": [], "Shapes": [], **shapes_of(self.electrodes)})
         if grids is not None:
             self._set(grids, {**cortex, "Opening": self.part("opening"),
                               "OpeningCentre": list(ball[0]), "OpeningRadius": float(ball[1])})
@@ -628,6 +639,7 @@ class Case(Steps, Moments, TimedTraces, Resections):
         bent.Lattice = source
         forget_former(former)
         simple.RenameSource(result_name(bent.Input, "fit"), source)
+        self._distances(bent)
         return Fit(source)
 
     @kept
@@ -637,57 +649,11 @@ class Case(Steps, Moments, TimedTraces, Resections):
 
         return refine(self.bent, self.comparison, **settings)
 
-    def judge(self):
-        """Judge the deformation by the landmarks, and keep the line as what Judge found.
-
-        Landmarks that the fit used are judged by leaving them out, others by their errors now.
-        """
-        fit = self.fit_source()
-        if fit is not None and self.fits_landmarks():
-            known = Fit(fit).left_out_of_used
-            self.judged = (f"leave-one-out error {known.mean():.2f} mm in the mean, "
-                           f"{known.max():.2f} mm at most, of {len(known)} landmarks"
-                           if len(known) else "no landmark is constrained by the others")
-        else:
-            errors = self.landmark_errors()
-            if errors is None:
-                raise ValueError("no landmark has a partner")
-            self.judged = repr(errors).removeprefix("TargetErrors: ")
-        return self.judged
-
-    @kept
-    def export(self, folder):
-        """Write the bent volume, the displacement field and, after `resect`, the tumour's labels.
-
-        - `folder`: path of the folder. It is made if it is missing.
-
-        Returns the paths of the files.
-        """
-        from paraview import simple
-
-        from .files import save_field, save_volume
-        from .views import world_axes
-
-        os.makedirs(folder, exist_ok=True)
-        name = os.path.join(folder, stem(self.volume) + self.moment_ending())
-        baked = simple.BakeDeformation(Input=self.bent, Interpolation="Cubic")
-        try:
-            save_volume(baked, f"{name}_bent.nii.gz")
-        finally:
-            simple.Delete(baked)
-        save_field(self.bent, f"{name}_field.nii.gz", world=world_axes(self.volume) or "RAS")
-        files = [f"{name}_bent.nii.gz", f"{name}_field.nii.gz"]
-        if self.known_resection() is not None:
-            for frame in ("rest", "deformed"):
-                files.append(f"{name}_tumour_{frame}.nii.gz")
-                self.resection.save(files[-1], frame, world_axes(self.volume))
-        self.exported = files
-        return files
-
     def __repr__(self):
         roles = ", ".join(role for role in ROLES if getattr(self, role) is not None) or "no role"
         lines = [f"  {step.name}: {step.state}"
-                 + (f", {step.lacks}" if step.lacks else f": {step.found}" if step.found else "")
+                 + (f", {step.lacks}" if step.lacks else "")
+                 + (f": {step.found}" if step.found else "")
                  for step in self.steps]
         if self.resection is not None:
             lines.append(f"  {self.resection}")

@@ -151,6 +151,17 @@ def inputs_of(source):
     return found
 
 
+def all_values_of(proxies):
+    """What sources, and all that they are made of, were told: a list of what `values_of` returns,
+    each once."""
+    from paraview import servermanager
+
+    found = {}
+    for source in proxies:
+        found.update(inputs_of(source))
+    return [values_of(servermanager._getPyProxy(proxy)) for proxy in found.values()]
+
+
 def values_of(source):
     """What a source was told, to see whether it changed: its identity, its properties, and when its
     files were written."""
@@ -174,25 +185,57 @@ def _list_of(value):
 
 
 def paths_of(source):
-    """The paths of the files of a source, or of the source that its points were chosen from."""
-    return _reader_and_paths(source)[1]
+    """The paths of the files of a source, or of those that its data are made of."""
+    paths = [path for _, files in _readers_and_paths(source) for path in files]
+    return list(dict.fromkeys(paths))
 
 
-def _reader_and_paths(source):
-    for each in (source, *upstream(source)):
-        value = next((getattr(each, name) for name in FILE_PROPERTIES
-                      if getattr(each, name, None)), None)
+def _readers_and_paths(source):
+    """The readers of the data of a source, and their paths: a list of pairs."""
+    from paraview import servermanager
+
+    found, seen, waiting = [], set(), [source.SMProxy]
+    while waiting:
+        proxy = waiting.pop()
+        if proxy.GetGlobalID() in seen:
+            continue
+        seen.add(proxy.GetGlobalID())
+        reader = servermanager._getPyProxy(proxy)
+        value = next((getattr(reader, name) for name in FILE_PROPERTIES
+                      if getattr(reader, name, None)), None)
         if value:
-            return each, _list_of(value)
-    return None, []
+            found.append((reader, _list_of(value)))
+        else:
+            waiting += _data_of(proxy)
+    return found
+
+
+def _data_of(proxy):
+    """The inputs of a filter; of a deformation the volume alone, for the rest only bends it."""
+    found, iterator = [], proxy.NewPropertyIterator()
+    iterator.UnRegister(None)
+    iterator.Begin()
+    while not iterator.IsAtEnd():
+        value = iterator.GetProperty()
+        is_volume = iterator.GetKey() == "Input" or proxy.GetXMLName() != "FreeFormDeformation"
+        if value.IsA("vtkSMInputProperty") and is_volume:
+            found += [value.GetProxy(i) for i in range(value.GetNumberOfProxies())]
+        iterator.Next()
+    return [proxy for proxy in found if proxy is not None]
 
 
 def doubt_about_files(source):
-    """A sentence without names, which reports show, if the files of a source were written, or went
-    away, after it read their headers; else empty, as for files on a server. The first call takes
-    them as they are. Another time step reads more of the files, and no header."""
-    reader, paths = _reader_and_paths(source)
-    algorithm = reader.GetClientSideObject() if reader else None
+    """A sentence without names, which reports show, if the files of a source, or of those that its
+    data are made of, were written, or went away, after their headers were read; else empty, as for
+    files on a server. The first call takes them as they are. Another time step reads more of the
+    files, and no header."""
+    return next(filter(None, (_doubt_about_reader(reader, paths)
+                              for reader, paths in _readers_and_paths(source))), "")
+
+
+def _doubt_about_reader(reader, paths):
+    """See `doubt_about_files`."""
+    algorithm = reader.GetClientSideObject()
     if algorithm is None:
         return ""
     when = algorithm.GetMTime()

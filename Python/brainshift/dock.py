@@ -5,6 +5,7 @@ The window has one case in hand. An order changes it through `Case`, so a script
 same; after each order the whole case is told again, as `_told` describes.
 """
 
+import itertools
 import json
 import os
 import traceback
@@ -352,7 +353,9 @@ def _select(case, name):
 
 def _begin_moment(case):
     """Another moment of the same surgery, which is in hand from now on."""
-    moment = case.begin_moment(f"moment {len(case.moments) + 1}")
+    taken = {each.moment for each in case.moments}
+    names = (f"moment {number}" for number in itertools.count(len(taken) + 1))
+    moment = case.begin_moment(next(name for name in names if name not in taken))
     _in_hand.update(case=moment, former=case)
     _in_hand["known"][moment.name] = moment
     _look_first(moment)

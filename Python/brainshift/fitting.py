@@ -112,25 +112,37 @@ class Fit:
         self.warning = source.GetPropertyValue("Warning") or ""
 
     def __repr__(self):
+        return "Fit: " + self.line("landmarks", self.left_out())
+
+    def left_out(self):
+        """The mean of the leave-one-out errors in words; None if there are none."""
+        left_out = self.left_out_of_used
+        return f"leave-one-out error {left_out.mean():.2f} mm (mean)" if len(left_out) else None
+
+    def line(self, pairs, left_out):
+        """The line of figures.
+
+        - `pairs`: what the landmarks are
+        - `left_out`: a leave-one-out error in words, or None
+        """
         import numpy
 
         words = []
-        for residuals, name in ((self.landmark_residuals, "landmarks"),
+        for residuals, name in ((self.landmark_residuals, pairs),
                                 (self.pull_residuals, "pulls"),
                                 (self.trace_residuals, "traced points")):
             counted = residuals[numpy.isfinite(residuals)]
             if len(counted):
                 rms = numpy.sqrt((counted ** 2).mean())
                 words.append(f"{len(counted)} {name} with residuals of {rms:.2f} mm (RMS)")
-        left_out = self.left_out_of_used
-        if len(left_out):
-            words.append(f"leave-one-out error {left_out.mean():.2f} mm (mean)")
+        if left_out:
+            words.append(left_out)
         cosine = (numpy.trace(self.rigid[:3, :3]) - 1.0) / 2.0
         degrees = numpy.degrees(numpy.arccos(numpy.clip(cosine, -1.0, 1.0)))
         words.append(f"rotation {degrees:.1f} degrees")
         words.append(f"applied {100.0 * self.share:.3g} %")
         words.append(f"deviations x {self.calibration:.2f}")
-        return "Fit: " + ", ".join(words) + (f". {self.warning}" if self.warning else "")
+        return ", ".join(words) + (f". {self.warning}" if self.warning else "")
 
     @property
     def left_out_of_used(self):

@@ -263,6 +263,22 @@ def shapes_of(source):
     return {"ContactGroups": [groups.get(label, "") for label in labels], "Shapes": hints}
 
 
+def sheet_left_out(source):
+    """The mean leave-one-out error (mm) of the sheets of an Electrode Grids, at the contacts that
+    are on the cortex; None if there are none."""
+    import numpy
+    from paraview import servermanager
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    source.UpdatePipeline()
+    arrays = servermanager.Fetch(source).GetPointData()
+    if not (arrays.HasArray("LeftOut") and arrays.HasArray("Weight")):  # it failed
+        return None
+    errors, weights = (vtk_to_numpy(arrays.GetArray(name)) for name in ("LeftOut", "Weight"))
+    known = errors[(weights > 0) & numpy.isfinite(errors)]
+    return float(known.mean()) if len(known) else None
+
+
 def _mesh(cortex):
     """A ParaView source of a surface that is given as points and triangles."""
     import numpy

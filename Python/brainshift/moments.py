@@ -25,18 +25,27 @@ class Moments:
 
     @property
     def moment(self):
-        """The name of the moment of surgery that the case is of; an empty text by default."""
+        """The name of the moment of surgery that the case is of; an empty text by default. No two
+        moments of a surgery have one name."""
         return self._setting("moment", "")
 
     @moment.setter
     def moment(self, name):
         if str(name) == self.moment:
             return
+        self._require_new(name, [case for case in self.moments if case != self])
         self._keep("moment", str(name))
         if self.bent is not None:
             from paraview import simple
 
             simple.RenameSource(free_name(self._bent_name()), self.bent)
+
+    @staticmethod
+    def _require_new(name, cases):
+        """Raises `ValueError` if one of the cases has that name of a moment."""
+        if str(name) and any(case.moment == str(name) for case in cases):
+            raise ValueError(f"another moment has the name {str(name)!r} already; give each moment "
+                             "its own name")
 
     @property
     def minutes(self):
@@ -79,11 +88,12 @@ class Moments:
 
         Returns the `Case` of the moment.
 
-        Raises `ValueError` without a volume, or if another moment has this time.
+        Raises `ValueError` without a volume, or if another moment has this time or name.
         """
         if self.lacks_bent():
             raise ValueError(f"a moment lacks {self.lacks_bent()}")
         former = self.moments
+        self._require_new(name, former)
         minutes = former[-1].minutes + 30.0 if minutes is None else float(minutes)
         if not math.isfinite(minutes) or any(case.minutes == minutes for case in former):
             raise ValueError(f"minutes is {minutes:g}; it must be a finite number, and the time of "
@@ -148,10 +158,17 @@ class Moments:
 
     def moment_ending(self):
         """What tells the files of a moment from those of others; empty for the only one."""
-        if len(self.moments) < 2:
+        moments = self.moments
+        if len(moments) < 2:
             return ""
-        words = "".join(letter if letter.isalnum() else "-" for letter in self.moment)
-        return f"_{words or f'{self.minutes:g}min'}"
+        own = self._words_of_moment()
+        is_twice = sum(case._words_of_moment().lower() == own.lower() for case in moments) > 1
+        minutes = f"{self.minutes:.10g}min"
+        return f"_{own}_{minutes}" if own and is_twice else f"_{own or minutes}"
+
+    def _words_of_moment(self):
+        """The name of the moment as names of files have it. Some disks know no capitals."""
+        return "".join(letter if letter.isalnum() else "-" for letter in self.moment)
 
     def _bent_name(self):
         return f"{stem(self.volume)} bent" + (f", {self.moment}" if self.moment else "")

@@ -5,6 +5,7 @@ import json
 
 from .casesources import result_name
 from .fitting import forget_former, is_kind, own
+from .lineage import compared_by, keep_fitted, landmarks_fitted_by
 from .reports import numbers
 
 _MOST_STARTS = 64
@@ -119,7 +120,8 @@ def _warn(result):
 
 def refined_by(lattice):
     """What made a Refined Lattice, also once a state brought it back: a dict of `steps`,
-    `finished`, `cost`, `before`, `trust` and `warning`. Empty for any other source."""
+    `finished`, `cost`, `before`, `trust`, `warning` and `of`, what `lineage.compared_by` returned.
+    Empty for any other source."""
     told = lattice.SMProxy.GetAnnotation(REFINED) if is_kind(lattice, "RefinedLattice") else None
     return json.loads(told) if told else {}
 
@@ -276,9 +278,11 @@ def _hold(bent, control_points):
     from paraview import simple
 
     former = bent.Lattice
+    landmarks = landmarks_fitted_by(former)
     held = own(simple.RefinedLattice(
         Input=bent.Input, LatticeDimensions=list(bent.LatticeDimensions),
         ControlPoints=control_points.tolist()))
+    keep_fitted(held, landmarks)
     bent.Lattice = held
     bent.Strokes = []
     if is_kind(former, "RefinedLattice"):
@@ -329,7 +333,7 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     starts = _starts(starts)
     active = simple.GetActiveSource()
     compare, made = _compared(filter, reference, cavity)
-    result = Refinement()
+    result, of = Refinement(), compared_by(filter, compare)
     try:
         run = _Run(compare, "BeginRefinement", Stiffness=float(stiffness),
                    Similarity=0 if similarity is None else names.index(similarity),
@@ -344,7 +348,7 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     result.filter.SMProxy.SetAnnotation(REFINED, json.dumps({
         "steps": result.steps, "finished": result.finished, "cost": result.disagreement,
         "before": result.disagreement_before, "trust": result.trust,
-        "warning": " ".join(result.warnings)}))
+        "warning": " ".join(result.warnings), "of": of}))
     result.smallest_determinant = filter.GetPropertyValue("MinimumJacobian")
     simple.SetActiveSource(active)
     _warn(result)

@@ -12,9 +12,11 @@ from .drawing import png
 from .figures import _strength_kept, _versions
 from .files import figures_of
 from .fitting import Fit
+from .grids import sheet_left_out
 from .maps import rest_from_deformed
 from .rolefiles import files_of, hash_of, is_dicom, is_store
 from .roles import ROLES, ending
+from .steps import strokes_of
 
 NOTICE = "Research software, not for clinical use."
 
@@ -110,7 +112,9 @@ def _distances(case):
     errors = case.landmark_errors()
     if errors is not None:
         meaning = "Distance of landmarks from their measured positions."
-        if case.fits_landmarks():
+        if case.landmarks_fitted_before():
+            meaning += " A fit before the refinement used them, so no accuracy follows."
+        elif case.fits_landmarks():
             meaning += " The fit used them, so this is smaller than elsewhere."
         rows += [("Landmarks, in the mean", float(errors.before.mean()), errors.mean, "mm",
                   meaning),
@@ -136,7 +140,7 @@ def _fit_rows(case):
         return [], None
     fit = Fit(source)
     rows = []
-    pairs = "landmarks" if case.fits_landmarks() else "contacts of grids"
+    pairs = "contacts of grids" if case.fits_contacts() else "landmarks"
     for residuals, name in ((fit.landmark_residuals, pairs), (fit.pull_residuals, "pulls"),
                             (fit.trace_residuals, "points of the cortex")):
         known = residuals[numpy.isfinite(residuals)]
@@ -144,10 +148,7 @@ def _fit_rows(case):
             rows.append((f"Residual of {len(known)} {name}, RMS",
                          float(numpy.sqrt((known ** 2).mean())), "mm",
                          "What the fit leaves at the points that it used."))
-    left_out = fit.left_out_of_used
-    if len(left_out):
-        rows.append(("Leave-one-out error, mean", float(left_out.mean()), "mm",
-                     f"Error at {pairs} that the fit did not use, each in turn."))
+    rows += _left_out_rows(case, fit)
     places = rest_from_deformed(case.bent, [list(scenes.focus_of(case))])
     deviation = float(fit.deviation(places)[0])
     rows += [("Deviation in the slices' middle", deviation, "mm",
@@ -161,13 +162,28 @@ def _fit_rows(case):
     return rows, fit
 
 
+def _left_out_rows(case, fit):
+    """The row of the leave-one-out error, if one is known."""
+    if not case.fits_contacts():
+        left_out = None if case.landmarks_fitted_before() else left_out_mean(fit)
+        return [] if left_out is None else [
+            ("Leave-one-out error, mean", left_out, "mm",
+             "Error at landmarks that the fit did not use, each in turn.")]
+    error = sheet_left_out(case.part("at_rest"))  # which made the positions at rest of the fit
+    return [] if error is None else [
+        ("Leave-one-out error of the sheet, mean", error, "mm",
+         "Distance of contacts from where all others of the grids predict them.")]
+
+
 def _deformation_rows(case):
     bent = figures_of(case.bent)
+    on, off = strokes_of(bent)
     return [("Largest displacement", float(bent.MaximumDisplacement), "mm",
              "Of the points that carry the deformation, in the whole volume."),
             ("Smallest Jacobian determinant", float(bent.MinimumJacobian), "",
              "Local change of volume: 1 keeps it, 0 or less is a fold."),
-            ("Strokes by hand", len(bent.Strokes) // 14, "", "Edits on top of the fit."),
+            ("Strokes by hand", on, "", "Edits on top of the fit."),
+            *([("Strokes that are switched off", off, "", "They do not count.")] if off else []),
             ("Shortened strokes", int(bent.ShortenedStrokes), "",
              "Strokes that the fold guard reduced.")]
 
@@ -326,16 +342,21 @@ def _tiles(case, fit, distances):
                       f"of {resection.before:.1f} ml" + (
                           f"; {100 * resection.level:.0f} % interval {ends[0]:.1f} to "
                           f"{ends[1]:.1f} ml" if ends else "; no interval")))
-    left_out = left_out_mean(fit) if case.fits_landmarks() else None
+    used_before = case.landmarks_fitted_before()
+    is_left_out = case.fits_landmarks() and not used_before
+    left_out = left_out_mean(fit) if is_left_out else None
+    bent = figures_of(case.bent)
     for name, before, after, unit, _ in distances:
         if name == "Landmarks, in the mean" and left_out is not None:
             found.append(("Landmarks left out, in the mean", f"{left_out:.2f} {unit}",
                           f"{before:.2f} {unit} without the deformation"))
+        elif name == "Landmarks, in the mean" and used_before:
+            continue  # no accuracy follows from them
         elif name.endswith(", RMS") or name == "Landmarks, in the mean":
             found.append((name, f"{after:.2f} {unit}", f"{before:.2f} {unit} without the "
                           "deformation"))
-    found.append(("Largest displacement", f"{float(case.bent.MaximumDisplacement):.1f} mm",
-                  f"smallest Jacobian determinant {float(case.bent.MinimumJacobian):.2f}"))
+    found.append(("Largest displacement", f"{float(bent.MaximumDisplacement):.1f} mm",
+                  f"smallest Jacobian determinant {float(bent.MinimumJacobian):.2f}"))
     return '<div class="tiles">' + "".join(
         f'<div class="tile"><span class="soft">{escape(title)}</span><b>{escape(value)}</b>'
         f'<span class="soft">{escape(note)}</span></div>'
@@ -386,7 +407,8 @@ def _sections(case, names):
         f'<p class="warning">{escape(text)}</p>' for text in _warnings(case))
     yield "Steps", _table(("Step", "State", "Found or missing"), [
         (step.name, step.state, f"{len(case.exported)} files"
-         if step.name == "Export" and case.exported and not names else step.found or step.lacks)
+         if step.name == "Export" and case.exported and not names
+         else ". ".join(filter(None, (step.lacks, step.found))))
         for step in case.steps])
     yield from _pictures(case, fit)
     if case.resection is not None:

@@ -35,12 +35,15 @@ _VOLUME_WORDS = (
     ("volume", "pre preop preoperative before mr mri t1 t1w t2 t2w flair ct head anat mprage"))
 
 #: Beginnings of words of columns: of landmarks at rest, and of measured ones.
-_REST_WORDS = ("rest", "pre", "before", "fixed")
-_MEASURED_WORDS = ("meas", "post", "intra", "after", "moving")
+_REST_WORDS = ("rest", "pre", "before", "fixed", "source")
+_MEASURED_WORDS = ("meas", "post", "intra", "after", "moving", "target", "during")
 
 #: Words of names of files of measured landmarks.
 _MEASURED_FILES = ("measured post postop postoperative intraop intraoperative during after us ius "
                    "moving")
+
+#: Whole words of columns of measured landmarks.
+_MEASURED_SHORT = ("us", "ius")
 
 #: Files beside the data that have no role.
 _ASIDE = ("coordsystem", "dataset_description", "participants", "manifest", "channels", "events")
@@ -110,24 +113,30 @@ def _rank(columns):
              for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+", name)]
     numbers = {re.sub(r"\D", "", name) for name in columns}
     is_rest = any(word.startswith(_REST_WORDS) for word in words) or numbers == {"1"}
-    is_measured = any(word.startswith(_MEASURED_WORDS) for word in words) or numbers == {"2"}
+    is_measured = numbers == {"2"} or any(
+        word.startswith(_MEASURED_WORDS) or word in _MEASURED_SHORT for word in words)
     return int(is_measured) - int(is_rest)
 
 
 def landmark_columns(path):
     """The two `column_sets` of a table of landmarks: at rest, measured, as their names say.
 
-    Names that say neither are taken in the order of the table. Raises `ValueError` if both say the
-    same, or neither says anything and they have other axes: then their order says nothing.
+    Raises `ValueError` if they do not say which is which: another space, such as MNI, or another
+    scan is no measurement of the same landmarks, and the order of columns says nothing.
     """
-    (axes, _), (others, _) = known = _sets_by_axes(path)
-    sets = [columns for _, columns in known]
+    sets = column_sets(path)
     first, second = map(_rank, sets)
-    if first == second and (first or axes != others):
+    if first == second:
         names = " or ".join(", ".join(columns) for columns in sets)
         raise ValueError(f"{os.path.basename(path)} does not say whether {names} are the landmarks "
-                         "at rest: call their columns x_rest, ... and x_measured, ...")
-    return sets if first <= second else sets[::-1]
+                         "at rest: call their columns x_rest, ... and x_measured, ..., or leave "
+                         "one set out")
+    return sets if first < second else sets[::-1]
+
+
+def _says_which(path):
+    """Whether a file with two sets of positions says which are at rest."""
+    return ending(path) == ".tag" or len(set(map(_rank, column_sets(path)))) == 2
 
 
 def holds_both(path):
@@ -152,7 +161,8 @@ def paired(files, rest=None):
     measured, given = files.get("measured"), files.get("landmarks")
     if measured is None or isinstance(given, (tuple, list)):
         return roles
-    if isinstance(given, (str, os.PathLike)) and os.path.isfile(given) and holds_both(given):
+    if isinstance(given, (str, os.PathLike)) and os.path.isfile(given) and (
+            holds_both(given) and _says_which(given)):
         raise ValueError(f"{os.path.basename(given)} has both positions of landmarks, and "
                          f"{os.path.basename(measured)} is given as the measured ones: leave one "
                          "of them out")
@@ -162,9 +172,11 @@ def paired(files, rest=None):
 
 def _points_role(path):
     """The role of a file of points, and why; None if nothing says one."""
-    if holds_both(path):
-        return "landmarks", holds_both(path)
-    role, reason = _by_words(path, _POINT_WORDS)
+    both, (role, reason) = holds_both(path), _by_words(path, _POINT_WORDS)
+    if both and (_says_which(path) or role in (None, "landmarks")):
+        return ("landmarks", both) if _says_which(path) else (None, (
+            f"{both}, and its columns do not say which are at rest: call them x_rest, ... and "
+            "x_measured, ..., or leave one set out"))
     word = next((word for word in _words(path) if word in _MEASURED_FILES.split()), None)
     if role == "landmarks" and word:
         return "measured", f"{reason} and the word {word}"

@@ -7,6 +7,8 @@ import os
 from .casesources import doubt_about_files
 from .files import figures_of, reason_of
 from .fitting import Fit, is_kind
+from .grids import sheet_left_out
+from .lineage import compared_by, differences, is_fitted, landmarks_fitted_by
 from .registering import refined_by
 from .roles import ROLES
 
@@ -18,10 +20,16 @@ Step.__doc__ = """A step of a case.
 - `name`: Look, Measure, Fit, By hand, Refine, Judge or Export
 - `state`: `"done"`, `"ready"`, or `"lacks"` if something is missing
 - `lacks`: what is missing, or an empty text
-- `found`: what it found, in a line with units, and why that may be wrong; or an empty text
+- `found`: what it found, in a line with units, and why that may be wrong, also of a result that
+  is left while something is missing; or an empty text
 """
 
+#: Numbers of a stroke; the last one says whether it is on.
 _NUMBERS_PER_STROKE = 14
+
+#: Of landmarks that say nothing about the accuracy of a refinement.
+_USED_BEFORE = ("A fit before the refinement used the landmarks, so no accuracy follows from them: "
+                "judge by others")
 
 #: The least Jacobian determinant that the fold guard allows.
 SMALLEST_DETERMINANT = 0.1
@@ -35,6 +43,13 @@ def _joined(line, sentences):
     new = [sentence for sentence in sentences if sentence.rstrip(".") not in line]
     parts = [part for part in (line, *new) if part]
     return ". ".join([*(part.rstrip(".") for part in parts[:-1]), *parts[-1:]])
+
+
+def strokes_of(bent):
+    """How many strokes of a deformation are on, and how many are switched off."""
+    switches = list(bent.Strokes)[_NUMBERS_PER_STROKE - 1::_NUMBERS_PER_STROKE]
+    on = sum(switch != 0.0 for switch in switches)
+    return on, len(switches) - on
 
 
 def _cost(value):
@@ -51,7 +66,8 @@ class Steps:
         for name in STEPS:
             lacks, line = getattr(self, "_step_" + name.lower().replace(" ", "_"))()
             state = "lacks" if lacks else "done" if line else "ready"
-            why = [sentence for step, sentence in doubts if step == name and not lacks]
+            why = [sentence for step, sentence in doubts
+                   if step == name and sentence != f"No {lacks}"]
             found.append(Step(name, state, lacks, _joined(line, why)))
         return found
 
@@ -78,11 +94,12 @@ class Steps:
         if self.lacks_bent():
             return self.lacks_bent(), ""
         lines = []
-        for measure, name in ((self.trace_distance, "traced points"),
-                              (self.contact_distance, "contacts")):
+        for measure, points, name in (
+                (self.trace_distance, self.traces_now(), "traced points"),
+                (self.contact_distance, self.electrodes, "contacts")):
             if measure is not None:
                 figures_of(measure)
-                total = measure.Input.GetDataInformation().GetNumberOfPoints()
+                total = points.GetDataInformation().GetNumberOfPoints()
                 mean = round(measure.Mean, 2) + 0.0  # never -0.00
                 lines.append(f"{measure.Count} of {total} {name} count, {measure.RMS:.2f} mm from "
                              f"the cortex (RMS), {mean:+.2f} mm in the mean")
@@ -146,19 +163,39 @@ class Steps:
         if fit is None:
             return "", ""
         figures_of(fit)
-        found = repr(Fit(fit)).removeprefix("Fit: ")
-        if not self.fits_landmarks():
-            found = found.replace(" landmarks with", " contacts of grids with")
-        return "", reason_of(fit) or found
+        return "", reason_of(fit) or self._words_of_fit(Fit(fit))
+
+    def _words_of_fit(self, fit):
+        """The line of a fit. Contacts of grids have no leave-one-out error of the fit, for they
+        made their own positions at rest; nor have landmarks that its base was fitted to."""
+        if not self.fits_contacts():
+            return fit.line("landmarks", None if self.landmarks_fitted_before() else fit.left_out())
+        error = sheet_left_out(self.part("at_rest"))
+        return fit.line("contacts of grids", None if error is None else
+                        f"leave-one-out error of the sheet {error:.2f} mm (mean)")
+
+    def fits_contacts(self):
+        """Whether the fit takes contacts of grids to the tissue under them, and no landmarks."""
+        fit, grids = self.fit_source(), self.part("at_rest")
+        return fit is not None and grids is not None and fit.RestLandmarks == grids
+
+    def landmarks_fitted_before(self):
+        """Whether a fit before a refinement used the landmarks, so that nothing judges by them."""
+        rest, bent = self.part("landmarks"), self.bent
+        if rest is None or bent is None:
+            return False
+        fit = self.fit_source()
+        return is_fitted(rest, landmarks_fitted_by(fit.Base if fit else bent.Lattice))
 
     def _step_by_hand(self):
         if self.lacks_bent():
             return self.lacks_bent(), ""
         bent = figures_of(self.bent)
-        count = len(bent.Strokes) // _NUMBERS_PER_STROKE
-        if not count:
-            return "", ""
-        return "", (f"{count} strokes, largest displacement {bent.MaximumDisplacement:.1f} mm, "
+        on, off = strokes_of(bent)
+        if not on:
+            return "", f"no stroke counts, {off} are switched off" if off else ""
+        return "", (f"{on} strokes" + (f", and {off} that are switched off" if off else "")
+                    + f", largest displacement {bent.MaximumDisplacement:.1f} mm, "
                     f"smallest Jacobian determinant {bent.MinimumJacobian:.2f}")
 
     def _step_refine(self):
@@ -170,11 +207,22 @@ class Steps:
         found = (f"largest displacement {bent.MaximumDisplacement:.1f} mm, smallest Jacobian "
                  f"determinant {bent.MinimumJacobian:.2f}")
         by = refined_by(self.bent.Lattice)
-        if by:
+        if by and not self._refined_otherwise(by):
             found += (f"; {'finished' if by['finished'] else 'stopped'} after {by['steps']} steps, "
                       f"cost {_cost(by['before'])} before, {_cost(by['cost'])} now (0: the volumes "
                       f"match). {_TRUST[by['trust']]}")
         return "", found
+
+    def _refined_otherwise(self, by):
+        """What the refinement was made of that is another now, or gone; an empty text if nothing.
+
+        - `by`: a result of `refined_by`
+        """
+        if not by.get("of"):  # an older state file
+            return ""
+        if self.comparison is None:
+            return "a reference that was taken away"
+        return ", ".join(differences(by["of"], compared_by(self.bent, self.comparison)))
 
     def doubtful(self):
         """The names of the steps that may have found something wrong: what they found says why."""
@@ -190,6 +238,8 @@ class Steps:
         found = [*self._doubts_about_files(), *self._doubts_about_points(),
                  *self._doubts_about_fit(), *self._doubts_about_reference(),
                  *self._doubts_about_tissue()]
+        if all(self.landmarks or (None,)) and self.landmarks_fitted_before():
+            found.append(("Judge", _USED_BEFORE))
         return [(step, sentence) for step, sentence in found if sentence]
 
     def _doubts_about_files(self):
@@ -212,27 +262,34 @@ class Steps:
         fit = self.fit_source()
         if fit is None:
             return
+        if not self.cortex() and (self.traced is not None or self.electrodes is not None):
+            yield "Fit", ("The cortex of the fit was taken away: what bends the volume is not what "
+                          "a new fit would find. Choose a brain, or set surface_level")
         known = Fit(figures_of(fit))
         yield "Fit", reason_of(fit)
         if known.warning or known.share < 1.0:
             yield "Fit", known.warning or f"The fold guard applied {100 * known.share:.3g} % of it"
         grids = self.part("at_rest")
-        if not self.fits_landmarks():
-            if grids is not None:
-                yield "Fit", figures_of(grids).GetPropertyValue("Warning")
+        if grids is not None:
+            yield "Fit", figures_of(grids).GetPropertyValue("Warning")
+        if self.traced is not None or self.electrodes is not None:
             yield "Fit", self._cavity_doubt()
 
     def _doubts_about_reference(self):
         if self.comparison is not None:
             yield "Refine", figures_of(self.comparison).GetPropertyValue("Warning")
         by = refined_by(self.bent.Lattice)
-        if by.get("warning") or by.get("trust") in ("doubtful", "failed"):
+        other = self._refined_otherwise(by)
+        if other:
+            yield "Refine", (f"The refinement was made with {other}: its checks say nothing of "
+                             "what is there now. Refine again")
+        elif by.get("warning") or by.get("trust") in ("doubtful", "failed"):
             yield "Refine", by.get("warning") or _TRUST[by["trust"]]
 
     def _doubts_about_tissue(self):
         """A fold belongs to the step that changed the deformation last."""
         bent = figures_of(self.bent)
-        step = ("By hand" if len(bent.Strokes) else
+        step = ("By hand" if strokes_of(bent)[0] else
                 "Refine" if is_kind(bent.Lattice, "RefinedLattice") else
                 "Fit" if self.fit_source() is not None else "Look")
         if bent.MinimumJacobian < SMALLEST_DETERMINANT:
@@ -248,6 +305,28 @@ class Steps:
         return self.lacks_bent(), (
             f"{len(self.exported)} files: " + ", ".join(
                 os.path.basename(file) for file in self.exported) if self.exported else "")
+
+    def judge(self):
+        """Judge the deformation by the landmarks, and keep the line as what Judge found.
+
+        Landmarks that the fit used are judged by leaving them out, others by their errors now. From
+        those that a fit before a refinement used, no accuracy follows.
+        """
+        fit, errors = self.fit_source(), self.landmark_errors()
+        if self.landmarks_fitted_before():
+            self.judged = _USED_BEFORE + ("" if errors is None else (
+                f". They are off by {errors.mean:.2f} mm in the mean, {errors.largest:.2f} mm at "
+                f"most, of {len(errors.errors)} landmarks"))
+        elif self.fits_landmarks():
+            known = Fit(fit).left_out_of_used
+            self.judged = (f"leave-one-out error {known.mean():.2f} mm in the mean, "
+                           f"{known.max():.2f} mm at most, of {len(known)} landmarks"
+                           if len(known) else "no landmark is constrained by the others")
+        else:
+            if errors is None:
+                raise ValueError("no landmark has a partner")
+            self.judged = repr(errors).removeprefix("TargetErrors: ")
+        return self.judged
 
     def run(self, step, **settings):
         """Do a step.

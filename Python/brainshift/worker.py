@@ -30,7 +30,9 @@ def figures_of_case(case):
         if measure is not None:
             found[f"{name} RMS (mm)"] = float(figures_of(measure).RMS)
     errors, fit = case.landmark_errors(), case.fit_source()
-    if case.fits_landmarks():  # errors at these are no accuracy
+    if case.landmarks_fitted_before():
+        pass  # no accuracy follows from them
+    elif case.fits_landmarks():  # errors at these are no accuracy
         left_out = left_out_mean(Fit(fit))
         if left_out is not None:
             found["landmarks left out, mean (mm)"] = left_out

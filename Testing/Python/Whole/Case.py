@@ -17,6 +17,7 @@ load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from brainshift import casesources, dock  # noqa: E402
 from brainshift.points import read_from  # noqa: E402
+from brainshift.roles import proposed  # noqa: E402
 from brainshift.worker import figures_of_case  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 from patient_testing import (MIDDLE, RADIUS, TOP, cap, make_patient, sunk,  # noqa: E402
@@ -213,6 +214,9 @@ def test_electrodes_are_fitted_by_their_sheet():
     assert len(used.left_out_of_used) == 19, used.left_out_of_used
     found = case.steps[2].found
     assert_says(found, "19 contacts of grids", "G7", "above")
+    measured = case.steps[1].found
+    assert_says(measured, "19 of 24 contacts count")  # neither what floats nor the shaft
+    assert case.contact_distance.RMS < 1.0, measured
     assert {name for name in figures_of_case(case) if "RMS" in name} == {"contacts RMS (mm)"}
     simple.SaveState(scratch("grid.pvsm"))
     clear()
@@ -401,6 +405,34 @@ def test_results_are_forgotten_when_a_file_of_the_volume_changes():
         assert brainshift.Case.all()[0].judged == "another", "nothing was written since"
 
 
+def test_what_is_above_a_role_counts():
+    file = scratch("above.nii.gz")
+    shutil.copy(path("sub-1_Tumor.nii.gz"), file)
+    clear()
+    reader = simple.OpenDataFile(file)  # as File > Open
+    moved = simple.Calculator(Input=reader, ResultArrayName="labels", Function="2*scalars")
+    twice = simple.Calculator(Input=moved, ResultArrayName="labels 2", Function="2*scalars")
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), tumour=twice)
+    assert casesources.paths_of(case.tumour) == [file]
+    case.judged = "a line"
+    simple.SaveState(scratch("above.pvsm"))
+    assert case.judged == "a line"
+    moved.Function = "3*scalars"
+    assert case.judged is None, "a filter above it"
+    os.utime(file, ns=(1, 1))
+    casesources._seen.clear()  # as a moment later
+    assert_says(case.steps[0].found, "Tumour: its file was written after it was read")
+    clear()
+    shutil.copy(path("sub-1_Tumor.nii.gz"), file)
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), tumour=simple.Calculator(
+        Input=simple.OpenDataFile(file), ResultArrayName="labels", Function="2*scalars"))
+    case.judged = "kept"
+    simple.SaveState(scratch("above.pvsm"))
+    clear()
+    simple.LoadState(scratch("above.pvsm"))
+    assert brainshift.Case.all()[0].judged == "kept", "a state keeps it"
+
+
 def test_a_file_that_was_written_after_it_was_read_is_said():
     points, brain = scratch("later.csv"), scratch("later.nii.gz")
     shutil.copy(path("pointer.csv"), points)
@@ -490,22 +522,33 @@ def test_columns_of_landmarks_are_taken_by_their_names():
             ("x_measured y_measured z_measured x_rest y_rest z_rest", True),
             ("post_x post_y post_z pre_x pre_y pre_z", True),
             ("x2 y2 z2 x1 y1 z1", True), ("r a s x_rest y_rest z_rest", True),
-            ("r a s x_meas y_meas z_meas", False), ("x_a y_a z_a x_b y_b z_b", False)):
+            ("r a s x_meas y_meas z_meas", False), ("x y z us_x us_y us_z", False),
+            ("source_x source_y source_z target_x target_y target_z", False),
+            ("moving_x moving_y moving_z fixed_x fixed_y fixed_z", True)):
         first, second = (measured, rest) if is_turned else (rest, measured)
         table(path("pairs.csv"), header.split(), [first[0] + second[0]])
         with messages() as said:
             case = brainshift.Case(landmarks=path("pairs.csv"))
-        is_unknown = header.split()[0] in ("x2", "x_a")  # words that say nothing known
+        is_unknown = any(word in header for word in ("x2", "us_x", "source"))  # to the reader
         assert ("it is not known" in said.text) == is_unknown, (header, said.text)
         places = [read_from(source).positions.tolist() for source in case.landmarks]
         assert places == [rest, measured], (header, places)
         simple.ResetSession()
         load_plugin()
-    for header in ("r a s x y z", "x y z r a s", "x_pre y_pre z_pre x_rest y_rest z_rest"):
+    for header in ("r a s x y z", "x y z r a s", "x_pre y_pre z_pre x_rest y_rest z_rest",
+                   "x_a y_a z_a x_b y_b z_b", "x y z mni_x mni_y mni_z",
+                   "ct_x ct_y ct_z mri_x mri_y mri_z"):
         table(path("pairs.csv"), header.split(), [rest[0] + measured[0]])
-        refused(ValueError, ["pairs.csv", "at rest"],
+        refused(ValueError, ["pairs.csv", "at rest", "x_measured", "leave one set out"],
                 lambda: brainshift.Case(landmarks=path("pairs.csv")))
+        for name, role in (("pairs", None), ("contacts", "electrodes"), ("traces", "traces")):
+            shutil.copy(path("pairs.csv"), scratch(f"{name}.csv"))
+            proposal, = proposed([scratch(f"{name}.csv")])
+            assert proposal.role == role, (header, proposal)
+            assert role or "leave one set out" in proposal.reason, proposal
     os.remove(path("pairs.csv"))
+    shutil.copy(path("targets.csv"), scratch("contacts.csv"))
+    assert proposed([scratch("contacts.csv")])[0].role == "landmarks", "its columns say which"
 
 
 def test_two_cases_may_share_sources():

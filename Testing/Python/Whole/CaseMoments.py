@@ -3,6 +3,7 @@
 # their own, are time steps that play, and come back with a state.
 import json
 import os
+import shutil
 
 import numpy
 from brainshift_testing import assert_says, field, load_plugin, run_tests, scratch
@@ -128,6 +129,28 @@ def test_files_of_moments_are_told_apart():
         case.run("Export", folder=folder)
     assert {"sub-1_T1w_0min_bent.nii.gz", "sub-1_T1w_after-resection_bent.nii.gz"} <= set(
         os.listdir(folder)), os.listdir(folder)
+    third = first.begin_moment("after_resection", 120)
+    assert second.moment_ending() == "_after-resection_95min"
+    assert third.moment_ending() == "_after-resection_120min", "both are files"
+    refused(["'after resection'", "its own name"], lambda: setattr(third, "moment",
+                                                                  "after resection"))
+    refused(["its own name"], lambda: first.begin_moment("after resection", 150))
+    third.moment = "moment 4"
+    dock._in_hand.update(case=first, former=None)
+    dock._begin_moment(first)
+    assert [case.moment for case in first.moments][1:] == [
+        "after resection", "moment 4", "moment 5"], "a name that is free"
+
+
+def test_files_of_another_case_stay():
+    begun()
+    folder = scratch("beside_out")
+    shutil.rmtree(folder, ignore_errors=True)
+    cases = [brainshift.Case(volume=path("sub-1_T1w.nii.gz")) for _ in range(2)]
+    for case in (*cases, cases[0]):  # its own files are written again
+        case.run("Export", folder=folder)
+    assert sorted(os.listdir(folder)) == [
+        f"sub-1_T1w{number}_{what}.nii.gz" for number in ("_2", "") for what in ("bent", "field")]
 
 
 def test_a_moment_leaves_with_its_volume():

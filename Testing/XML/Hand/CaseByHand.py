@@ -13,8 +13,9 @@ import brainshift
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift import scenes
+from brainshift import lineage, scenes
 from brainshift.points import read_from
+from brainshift.registering import refined_by
 from brainshift_testing import scratch
 from paraview import simple
 from patient_testing import MIDDLE, cap, make_patient, sunk, table
@@ -299,10 +300,21 @@ def the_tumour_that_is_left_is_shown():
 
 
 def a_reference_is_refined():
+    assert hand.click("BrainShiftCaseFit")
+    window.until(lambda: "8 landmarks" in text_of("Fit"), "the fit")
+    settled()
+    with window.unrecorded():
+        used = lineage.landmarks_fitted_by(second().bent.Lattice)
+        of = lineage.compared_by(second().bent, second().comparison)
+    assert used, "the fit used landmarks"
     assert hand.click("BrainShiftCaseRefine")
     window.until(lambda: "finished after" in text_of("Refine"), "the end of the refinement", 120.0)
     settled()
     assert f"{chosen('Volume')} refined" in names(), names()
+    with window.unrecorded():
+        assert lineage.landmarks_fitted_by(second().bent.Lattice) == used, used
+        assert refined_by(second().bent.Lattice)["of"] == of, of
+    assert "A fit before the refinement used the landmarks" in text_of("Judge"), text_of("Judge")
 
 
 def files_are_written():

@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that a case does not claim more than it knows: landmarks that a fit used before a
+# refinement judge nothing, a refinement is of the reference that it was made with, contacts have
+# the error of their sheet, and a doubt is said also where a step lacks something.
+import os
+import shutil
+
+import numpy
+from brainshift_testing import assert_says, load_plugin, run_tests, scratch
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from brainshift import reporting  # noqa: E402
+from brainshift.worker import figures_of_case  # noqa: E402
+from paraview import simple  # noqa: E402
+from patient_testing import MIDDLE, RADIUS, TOP, make_patient, sunk  # noqa: E402
+
+FOLDER = scratch("doubts")
+STROKE_SWITCH = 13  # the last of its 14 numbers
+make_patient(FOLDER)
+
+
+def path(name):
+    return os.path.join(FOLDER, name)
+
+
+def begun(**roles):
+    """A new session with a case of these files, beside volume and brain."""
+    simple.ResetSession()
+    load_plugin()
+    files = {"volume": "sub-1_T1w.nii.gz", "brain": "sub-1_brainmask.nii.gz", **roles}
+    return brainshift.Case(**{role: path(file) for role, file in files.items()})
+
+
+def found(case, name):
+    return next(step for step in case.steps if step.name == name)
+
+
+def refined(case):
+    case.refine(callback=lambda _: False)
+    assert case.fit_source() is None
+    return case
+
+
+def grid(name, prefix, count=(4, 5), extra=None):
+    """Writes a table of contacts of a grid on the cortex under the opening."""
+    extra = extra or {}
+    rows, columns = count
+    steps = 10.0 * numpy.mgrid[:rows, :columns].reshape(2, -1).T
+    steps -= steps.mean(axis=0) - 0.1
+    angles = numpy.linalg.norm(steps, axis=1) / RADIUS
+    flat = steps / numpy.linalg.norm(steps, axis=1)[:, None]
+    rest = MIDDLE + RADIUS * numpy.column_stack(
+        (flat * numpy.sin(angles)[:, None], numpy.cos(angles)))
+    with open(path(name), "w", encoding="utf-8") as file:
+        file.write("\t".join(["name", "x", "y", "z", *extra]) + "\n")
+        for i, at in enumerate(sunk(rest).tolist()):
+            file.write("\t".join([f"{prefix}{i + 1}", *map(str, at), *extra.values()]) + "\n")
+
+
+def test_landmarks_that_a_fit_used_judge_no_refinement():
+    case = begun(traces="pointer.csv", landmarks="targets.csv", reference="sub-1_postop.nii.gz")
+    shutil.copy(path("targets.csv"), path("others.csv"))
+    case.run("Fit")
+    refined(case)
+    said = "A fit before the refinement used the landmarks"
+    assert_says(found(case, "Judge").found, said)
+    assert_says(case.run("Judge").found, said, "no accuracy", "of 8 landmarks")
+    assert "Judge" in case.doubtful()
+    assert case.run("Judge").found.count(said) == 1
+    assert not any("landmarks" in name for name in figures_of_case(case))
+    rows = {row[0]: row[-1] for row in reporting._distances(case)}
+    assert_says(rows["Landmarks, in the mean"], "no accuracy follows")
+    assert "Landmarks" not in reporting._tiles(case, None, reporting._distances(case))
+    simple.SaveState(scratch("refined.pvsm"))
+    simple.ResetSession()
+    load_plugin()
+    simple.LoadState(scratch("refined.pvsm"))
+    case, = brainshift.Case.all()
+    assert case.landmarks_fitted_before(), "a state keeps it"
+    case.landmarks = path("targets.csv")
+    assert case.landmarks_fitted_before(), "the same file opened again"
+    refined(case)
+    assert case.landmarks_fitted_before(), "a second refinement"
+    assert "leave-one-out" not in case.run("Fit").found, "its base was fitted to them"
+    assert not any("landmarks" in name for name in figures_of_case(case))
+    case.landmarks = path("others.csv")
+    assert not case.landmarks_fitted_before()
+    assert_says(found(case, "Fit").found, "leave-one-out")
+    assert "landmarks left out, mean (mm)" in figures_of_case(case)
+
+
+def test_landmarks_that_no_fit_used_judge_a_refinement():
+    case = begun(traces="pointer.csv", reference="sub-1_postop.nii.gz")
+    case.landmarks_judge = True
+    case.landmarks = path("targets.csv")
+    case.run("Fit")
+    refined(case)
+    assert_says(case.run("Judge").found, "of 8 landmarks", "mm on average")
+    assert "Judge" not in case.doubtful() and "landmarks mean (mm)" in figures_of_case(case)
+
+
+def test_a_refinement_is_of_its_reference():
+    case = refined(begun(reference="sub-1_postop.nii.gz"))
+    shutil.copy(path("sub-1_postop.nii.gz"), path("second.nii.gz"))
+    good = found(case, "Refine").found
+    assert_says(good, "cost", "before")
+
+    def said(words):
+        step = found(case, "Refine")
+        assert_says(step.found, f"made with {words}", "Refine again")
+        assert "cost" not in step.found and "Refine" in case.doubtful(), step
+        return step.state
+    case.comparison.ReferenceTranslation = [2.0, 0.0, 0.0]
+    assert said("another position of the reference") == "done"
+    case.comparison.ReferenceTranslation = [0.0, 0.0, 0.0]
+    assert found(case, "Refine").found == good
+    case.cavity = path("cavity.nii.gz")
+    said("another cavity")
+    case.cavity = None
+    case.reference = path("sub-1_postop.nii.gz")
+    assert found(case, "Refine").found == good, "the same file"
+    simple.SaveState(scratch("reference.pvsm"))
+    simple.ResetSession()
+    load_plugin()
+    simple.LoadState(scratch("reference.pvsm"))
+    case, = brainshift.Case.all()
+    assert found(case, "Refine").found == good, "a state keeps it"
+    case.reference = path("second.nii.gz")
+    said("another reference")
+    case.reference = None
+    assert said("a reference that was taken away") == "lacks"
+
+
+def test_other_electrodes_have_shapes_of_their_own():
+    grid("a_electrodes.tsv", "A", extra={"group": "A", "type": "grid", "dimension": "[4x5]"})
+    grid("b_electrodes.tsv", "B")
+    case = begun(electrodes="a_electrodes.tsv")
+    case.run("Fit")
+    grids = case.part("at_rest")
+    assert list(grids.Shapes) == ["A=grid 4x5"] and list(grids.ContactGroups) == ["A"] * 20
+    grids.Shapes = ["A=4x5 10mm"]
+    case.holds_outside = False
+    assert list(grids.Shapes) == ["A=4x5 10mm"], "a user's own stay"
+    case.electrodes = path("b_electrodes.tsv")
+    assert case.part("at_rest") == grids
+    assert list(grids.Shapes) == [] and list(grids.ContactGroups) == []
+    assert_says(found(case, "Fit").found, "20 contacts of grids")
+
+
+def test_contacts_have_the_error_of_their_sheet():
+    grid("b_electrodes.tsv", "B")
+    case = begun(electrodes="b_electrodes.tsv")
+    case.run("Fit")
+    sheet = brainshift.electrodes(path("b_electrodes.tsv"), case.brain).leave_one_out.mean()
+    assert_says(found(case, "Fit").found, f"leave-one-out error of the sheet {sheet:.2f} mm")
+    rows, _ = reporting._fit_rows(case)
+    errors = [row for row in rows if "eave-one-out error" in row[0]]
+    assert [row[0] for row in errors] == ["Leave-one-out error of the sheet, mean"], errors
+    assert abs(errors[0][1] - sheet) < 0.01, (errors, sheet)
+
+
+def test_doubts_of_grids_and_cavity_stay_beside_landmarks():
+    grid("b_electrodes.tsv", "B", count=(4, 4))
+    with open(path("b_electrodes.tsv"), encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    name, x, y, z = lines[6].split("\t")
+    lines[6] = "\t".join([name, x, y, str(float(z) + 6.0)])  # it floats
+    with open(path("b_electrodes.tsv"), "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+    case = begun(electrodes="b_electrodes.tsv", traces="pointer.csv", cavity="cavity.nii.gz",
+                 reference="sub-1_postop.nii.gz")
+    case.run("Fit")
+    case.comparison.ReferenceTranslation = [2.0, 0.0, 0.0]
+    for landmarks in (None, path("targets.csv")):
+        case.landmarks = landmarks
+        assert case.fits_landmarks() == bool(landmarks)
+        assert_says(found(case, "Fit").found, name, "above", "The reference was moved")
+
+
+def test_strokes_that_are_off_are_no_edits():
+    case = begun()
+    one = list(brainshift.soft(TOP, (0, 0, -5), 30))
+    off = list(one)
+    off[STROKE_SWITCH] = 0.0
+    case.bent.Strokes = one + off
+    assert_says(found(case, "By hand").found, "1 strokes, and 1 that are switched off")
+    rows = {row[0]: row[1] for row in reporting._deformation_rows(case)}
+    assert rows["Strokes by hand"] == 1 and rows["Strokes that are switched off"] == 1
+    case.bent.Strokes = off
+    assert found(case, "By hand").found == "no stroke counts, 1 are switched off"
+    case.bent.Strokes = []
+    assert found(case, "By hand").state == "ready"
+
+
+def test_a_fit_without_its_brain_is_doubted():
+    case = begun(traces="pointer.csv")
+    case.run("Fit")
+    assert "Fit" not in case.doubtful()
+    case.brain = None
+    step = found(case, "Fit")
+    assert step.state == "lacks", step
+    assert_says(step.found, "The cortex of the fit was taken away")
+    assert_says(repr(case), "Fit: lacks, a brain", "taken away")
+    assert "Fit" in case.doubtful()
+    assert any("taken away" in text for text in reporting._warnings(case))
+    case.brain = path("sub-1_brainmask.nii.gz")
+    assert "Fit" not in case.doubtful(), case.doubts()
+
+
+def test_the_first_tile_has_figures_of_now():
+    case = begun()
+    case.bent.UpdatePipeline()
+    case.bent.Strokes = brainshift.soft(TOP, (0, 0, -5), 30)
+    assert "<b>0.0 mm</b>" not in reporting._tiles(case, None, [])
+
+
+run_tests(globals())
