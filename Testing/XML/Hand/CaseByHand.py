@@ -162,8 +162,10 @@ def traces_are_opened_measured_and_fitted():
     window.action("Redo")
     settled()
     assert "residuals" in text_of("Fit"), text_of("Fit")
+    hand.forget_messages()
     assert hand.click("BrainShiftCaseMeasure")
     settled()
+    assert hand.messages() == ([], False), hand.messages()  # as of a format of the scale's labels
     shown = simple.GetRepresentation(case().trace_distance, simple.GetActiveView())
     assert shown.Visibility == 1
 
