@@ -127,13 +127,14 @@ struct vtkLandmarkMarks::Parts
     this->line(middle + glm::dvec2(-radius, radius), middle + glm::dvec2(radius, -radius), color);
   }
 
-  void write(vtkTextActor* text, const LandmarkMark& mark, const glm::dvec2& at, double scale)
+  // VTK makes letters larger where a pixel is smaller.
+  void write(vtkTextActor* text, const LandmarkMark& mark, const glm::dvec2& at)
   {
     const bool isWorst = mark.style == Style::Worst;
     text->SetInput((mark.text + (isWorst ? "!" : "")).c_str());
     text->SetDisplayPosition(static_cast<int>(at.x), static_cast<int>(at.y));
     vtkTextProperty* font = text->GetTextProperty();
-    font->SetFontSize(static_cast<int>(TextPixels * scale));
+    font->SetFontSize(TextPixels);
     font->SetBold(isWorst);
     font->SetShadow(1);
     const Color& color = mark.style == Style::Off ? Grey : White;
@@ -162,7 +163,7 @@ struct vtkLandmarkMarks::Parts
     if (tissue || measured)
     {
       this->Texts.push_back(vtkSmartPointer<vtkTextActor>::New());
-      this->write(this->Texts.back(), mark, (tissue ? *tissue : *measured) + 1.2 * radius, scale);
+      this->write(this->Texts.back(), mark, (tissue ? *tissue : *measured) + 1.2 * radius);
     }
   }
 };

@@ -45,6 +45,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace brainshift
 {
@@ -146,6 +147,7 @@ CaseDock::CaseDock(QWidget* parent)
   this->addRoles(layout);
   this->addSteps(layout);
   layout->addStretch(1);
+  this->showNothingYet();
   auto scroll = new UprightScroll;
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
@@ -492,8 +494,26 @@ void CaseDock::writeTo(const QString& step)
   }
 }
 
+// Until Python answers for the first time, which takes it a second.
+void CaseDock::showNothingYet()
+{
+  for (RoleBox* box : std::as_const(this->Boxes))
+  {
+    box->show({}, false);
+  }
+  const std::array<QWidget*, 4> empty{ this->Cases, this->Sphere, this->Settings->parentWidget(),
+    this->Problem };
+  for (QWidget* widget : empty)
+  {
+    widget->hide();
+  }
+  this->NewMoment->setEnabled(false);
+  this->Steps->setEnabled(false);
+}
+
 void CaseDock::showState()
 {
+  this->Steps->setEnabled(true);
   const QJsonObject& told = this->Orders->told();
   const QJsonArray sphere = told["sphere"].toArray();
   for (const QJsonValue role : told["roles"].toArray())

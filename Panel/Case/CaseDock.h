@@ -60,6 +60,7 @@ private:
   bool isInFront() const;
   void showInFront(bool on);
   void paint(); ///< Gives texts the colours of the palette.
+  void showNothingYet();
   void showState();
   void showRefine();
   void choose(const QString& role, const QJsonObject& what);

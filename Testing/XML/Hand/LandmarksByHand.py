@@ -3,8 +3,9 @@
 reference, first the tissue and then its place in the reference; that a half pair never reaches the
 fit, and a drag while picking is the camera's; that the table shows the filter's residuals and
 errors of pairs left out, marks the pair that fits worst, and lets a pair count or not by its tick;
-that each edit is one step to undo; that marks stand in the views; that two lists without a common
-name are paired by their order on request; and that a state keeps the pairs.
+that each edit is one step to undo; that marks stand in the views, with letters that are as large to
+the eye at 200 %; that two lists without a common name are paired by their order on request; and
+that a state keeps the pairs.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
@@ -14,7 +15,7 @@ import numpy
 import test_hand as hand
 import window_testing as window
 from brainshift.reports import numbers
-from brainshift_testing import data, scratch
+from brainshift_testing import data, picture, scratch
 from paraview import simple
 
 TABLE = "BrainShiftLandmarks"
@@ -269,6 +270,26 @@ def marks_stand_in_the_views():
     wait_for(lambda: len(marks_in("volume")) == 6, "the marks again")
 
 
+def white_of_marks(view):
+    """How much the marks' letters brighten the picture, in white pixels."""
+    shown = []
+    for _ in range(2):
+        shown.append(picture(view).min(axis=2))  # rings and crosses lack a colour
+        assert hand.click("BrainShiftLandmarkMarks")
+        hand.wait(300)
+    return (shown[0] - shown[1]).clip(0.0).sum()
+
+
+def letters_are_as_large_to_the_eye_at_200_percent():
+    view = scene["views"]["volume"]
+    dots, found = view.GetRenderWindow().GetDPI(), []
+    for factor in (1, 2):
+        view.GetRenderWindow().SetDPI(factor * dots)
+        found.append(white_of_marks(view))
+    view.GetRenderWindow().SetDPI(dots)
+    assert 2.5 < found[1] / found[0] < 6.0, found  # 4: twice as high and wide
+
+
 def delete_is_one_step():
     assert hand.click_cell(TABLE, 5, column=1)
     hand.wait(50)
@@ -346,4 +367,5 @@ window.main("LandmarksByHand", [
     (set_up,), (lists_are_paired_by_order_on_request,), (half_a_pair_never_reaches_the_fit,),
     (drags_are_the_cameras_while_picking,), (place_under_a_click_in_3d,), (clicks_make_pairs,),
     (table_shows_the_filters_numbers,), (worst_is_the_spoiled_one_and_a_tick_disables_it,),
-    (marks_stand_in_the_views,), (delete_is_one_step,), (a_state_keeps_the_pairs,)])
+    (marks_stand_in_the_views,), (letters_are_as_large_to_the_eye_at_200_percent,),
+    (delete_is_one_step,), (a_state_keeps_the_pairs,)])
