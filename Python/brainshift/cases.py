@@ -9,7 +9,7 @@ from .arguments import positive, vector
 from .casesources import (
     MARK, OPENED, RESULT, SETTING, all_values_of, digest_of, doubt_about_files, free_name,
     give_name, inputs_of, kept, marks, opened, require_kind, result_name, settings_at, sources,
-    stem, upstream, values_of)
+    sources_with, stem, upstream, values_of)
 from .exporting import Exports
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
@@ -266,8 +266,7 @@ class Case(Steps, Moments, TimedTraces, Resections, Exports):
 
         Raises `ValueError` if a state of the case was loaded beside it.
         """
-        key = self._key(role)
-        found = [source for source in sources() if source.SMProxy.HasAnnotation(key)]
+        found = sources_with(self._key(role))
         if len(found) > 1 and role != "fit":  # a refinement may have replaced a fit
             raise ValueError("the session has this case twice, for a state of it was loaded beside "
                              "it: delete one, or reset the session before a state is loaded")

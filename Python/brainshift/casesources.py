@@ -39,6 +39,23 @@ def sources():
     return list(simple.GetSources().values())
 
 
+def sources_with(annotation):
+    """The sources of the pipeline that have an annotation. Only these get their Python object,
+    which takes far longer than the search: a case asks for its parts a hundred times."""
+    from paraview import servermanager
+
+    found, iterator = {}, servermanager.vtkSMProxyIterator()
+    iterator.SetSession(servermanager.ActiveConnection.Session)
+    iterator.SetModeToOneGroup()
+    iterator.Begin("sources")
+    while not iterator.IsAtEnd():
+        proxy = iterator.GetProxy()
+        if proxy.HasAnnotation(annotation):
+            found[proxy.GetGlobalID()] = servermanager._getPyProxy(proxy)
+        iterator.Next()
+    return list(found.values())
+
+
 def free_name(name):
     """A name that no source of the pipeline has."""
     from paraview import simple
