@@ -29,7 +29,18 @@ namespace
 {
 constexpr int EachMs = 100;    // how often it asks while bricks are read
 constexpr int AtMostMs = 1000; // without a picture while there are bricks to show
-constexpr std::size_t DetailNumbers = 6;
+
+// The numbers of the report's Detail, in its order.
+enum DetailNumber : std::size_t
+{
+  Level,
+  Drawn,
+  ToCome,
+  IsOverfull,
+  IsReading,
+  HasUnshown,
+  DetailNumbers
+};
 
 // Whether its volume is read from a file with levels. Others are asked nothing.
 bool hasLevels(pqDataRepresentation* display)
@@ -45,16 +56,17 @@ bool hasLevels(pqDataRepresentation* display)
 void showInStatusBar(const std::vector<double>& detail)
 {
   auto window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
-  if (!window || detail.size() != DetailNumbers || detail[0] < 0)
+  if (!window || detail.size() != DetailNumbers || detail[Level] < 0)
   {
     return;
   }
-  const QString drawn = QString("Level %1: %2 bricks are drawn").arg(detail[0]).arg(detail[1]);
+  const QString drawn =
+    QString("Level %1: %2 bricks are drawn").arg(detail[Level]).arg(detail[Drawn]);
   constexpr int shownMs = 3000;
-  window->statusBar()->showMessage(detail[2] > 0
-      ? drawn + QString(", %1 are to come").arg(detail[2])
-      : detail[3] > 0 ? drawn + "; memory is full, the rest is coarser"
-                      : drawn,
+  window->statusBar()->showMessage(detail[ToCome] > 0
+      ? drawn + QString(", %1 are to come").arg(detail[ToCome])
+      : detail[IsOverfull] > 0 ? drawn + "; memory is full, the rest is coarser"
+                               : drawn,
     shownMs);
 }
 
@@ -81,11 +93,13 @@ Detail detailOf(pqDataRepresentation* display)
     return Detail::Reading;
   }
   const std::vector<double> numbers = numbersOf(display);
-  if (numbers.size() != DetailNumbers || numbers[2] <= 0)
+  if (numbers.size() != DetailNumbers || numbers[ToCome] <= 0)
   {
     return Detail::Complete;
   }
-  return numbers[4] <= 0 ? Detail::Ready : numbers[5] > 0 ? Detail::Read : Detail::Reading;
+  return numbers[IsReading] <= 0 ? Detail::Ready
+    : numbers[HasUnshown] > 0    ? Detail::Read
+                                 : Detail::Reading;
 }
 
 struct HastiestDisplay // of a view
