@@ -117,6 +117,7 @@ def _frame(view, size):
     """Moves and zooms the camera so that what is drawn on the black ground fills `_FRAME`."""
     import numpy
 
+    view.CameraParallelScale *= 2.0  # so that nothing is cut off
     drawn = _pixels(view, size).max(axis=2) > _DARK
     if not drawn.any():
         return
