@@ -21,7 +21,8 @@ RESULT, NAME = "BrainShift.CaseResult.", "BrainShift.CaseName"
 #: Properties of readers that name files or folders.
 FILE_PROPERTIES = ("FileName", "FileNames")
 
-#: By path: until when it is not looked at again, and what was found. See `_written`.
+#: By path, and whether it is listed: until when it is not looked at again, and what was found. See
+#: `_written_each`.
 _seen = {}
 
 #: By the number of a source that reads files: when it was set or reloaded last, which makes it read
@@ -149,23 +150,34 @@ def upstream(source):
     return found
 
 
-def inputs_of(source):
-    """All proxies that a source is made of, by their numbers, and the source itself."""
+def _proxies_in(proxy):
+    """The properties of a proxy that have proxies, and these: pairs of a property and a list."""
+    iterator = proxy.NewPropertyIterator()
+    iterator.UnRegister(None)
+    iterator.Begin()
+    while not iterator.IsAtEnd():
+        value = iterator.GetProperty()
+        if value.IsA("vtkSMProxyProperty"):
+            yield value, [value.GetProxy(i) for i in range(value.GetNumberOfProxies())]
+        iterator.Next()
+
+
+def _reached(source, next_of):
+    """The proxies that a source leads to, by their numbers: its own, and those that `next_of` tells
+    for each."""
     found, waiting = {}, [source.SMProxy]
     while waiting:
         proxy = waiting.pop()
-        if proxy is None or proxy.GetGlobalID() in found:
-            continue
-        found[proxy.GetGlobalID()] = proxy
-        iterator = proxy.NewPropertyIterator()
-        iterator.UnRegister(None)
-        iterator.Begin()
-        while not iterator.IsAtEnd():
-            value = iterator.GetProperty()
-            if value.IsA("vtkSMProxyProperty"):
-                waiting += [value.GetProxy(i) for i in range(value.GetNumberOfProxies())]
-            iterator.Next()
+        if proxy is not None and proxy.GetGlobalID() not in found:
+            found[proxy.GetGlobalID()] = proxy
+            waiting += next_of(proxy)
     return found
+
+
+def inputs_of(source):
+    """All proxies that a source is made of, by their numbers, and the source itself."""
+    return _reached(source, lambda proxy: [
+        each for _, proxies in _proxies_in(proxy) for each in proxies])
 
 
 def all_values_of(proxies):
@@ -193,7 +205,7 @@ def values_of(source):
                      for i in range(own.GetNumberOfProxies())]
         found.append((name, str(value)))
         if name.endswith(FILE_PROPERTIES):
-            found.append((f"{name} written", [_written(path) for path in _list_of(value)]))
+            found.append((f"{name} written", _written_each(_list_of(value))))
     return found
 
 
@@ -202,43 +214,30 @@ def _list_of(value):
 
 
 def paths_of(source):
-    """The paths of the files of a source, or of those that its data are made of."""
-    paths = [path for _, files in _readers_and_paths(source) for path in files]
-    return list(dict.fromkeys(paths))
+    """The paths of the files of a source, or of those that its data are made of, and whether a
+    reader has more than this one: a dict."""
+    return {path: len(paths) > 1 for _, paths in _readers_and_paths(source) for path in paths}
 
 
 def _readers_and_paths(source):
     """The readers of the data of a source, and their paths: a list of pairs."""
     from paraview import servermanager
 
-    found, seen, waiting = [], set(), [source.SMProxy]
-    while waiting:
-        proxy = waiting.pop()
-        if proxy.GetGlobalID() in seen:
-            continue
-        seen.add(proxy.GetGlobalID())
+    def paths_in(proxy):
         reader = servermanager._getPyProxy(proxy)
-        value = next((getattr(reader, name) for name in FILE_PROPERTIES
-                      if getattr(reader, name, None)), None)
-        if value:
-            found.append((reader, _list_of(value)))
-        else:
-            waiting += _data_of(proxy)
-    return found
+        return _list_of(next((getattr(reader, name) for name in FILE_PROPERTIES
+                              if getattr(reader, name, None)), None))
+
+    reached = _reached(source, lambda proxy: [] if paths_in(proxy) else _data_of(proxy))
+    found = [(servermanager._getPyProxy(proxy), paths_in(proxy)) for proxy in reached.values()]
+    return [(reader, paths) for reader, paths in found if paths]
 
 
 def _data_of(proxy):
     """The inputs of a filter; of a deformation the volume alone, for the rest only bends it."""
-    found, iterator = [], proxy.NewPropertyIterator()
-    iterator.UnRegister(None)
-    iterator.Begin()
-    while not iterator.IsAtEnd():
-        value = iterator.GetProperty()
-        is_volume = iterator.GetKey() == "Input" or proxy.GetXMLName() != "FreeFormDeformation"
-        if value.IsA("vtkSMInputProperty") and is_volume:
-            found += [value.GetProxy(i) for i in range(value.GetNumberOfProxies())]
-        iterator.Next()
-    return [proxy for proxy in found if proxy is not None]
+    is_bent = proxy.GetXMLName() == "FreeFormDeformation"
+    return [each for value, proxies in _proxies_in(proxy) for each in proxies
+            if value.IsA("vtkSMInputProperty") and not (is_bent and value.GetXMLName() != "Input")]
 
 
 def doubt_about_files(source):
@@ -256,7 +255,7 @@ def _doubt_about_reader(reader, paths):
     if algorithm is None:
         return ""
     when = algorithm.GetMTime()
-    written = [_written(path) for path in paths]
+    written = _written_each(paths)
     former, then = _read.setdefault(reader.SMProxy.GetGlobalID(), (when, written))
     if former != when:  # it reads them again
         _read[reader.SMProxy.GetGlobalID()], then = (when, written), written
@@ -287,25 +286,30 @@ def _reads_folders(source):
     return source.SMProxy.GetXMLName().startswith("DICOM")
 
 
-def _written(path):
-    """When the files that are read for a path were written, and their sizes: pairs by name. Empty
-    if there is none, as on a server.
+def _written_each(paths):
+    """For each path when the files that are read for it were written, and their sizes: pairs by
+    name. Empty if there is none, as on a server.
 
     The answer is kept for 20 times as long as it took: a folder may have thousands of files.
     """
+    return [_written(path, len(paths) > 1) for path in paths]
+
+
+def _written(path, listed):
+    """See `_written_each`."""
     asked = time.monotonic()
-    until, found = _seen.get(path, (asked, None))
+    until, found = _seen.get((path, listed), (asked, None))
     if asked >= until:
-        found = sorted(filter(None, map(_stat_of, _files_at(path))))
+        found = sorted(filter(None, map(_stat_of, _files_at(path, listed))))
         now = time.monotonic()
-        _seen[path] = now + 20.0 * (now - asked), found
+        _seen[path, listed] = now + 20.0 * (now - asked), found
     return found
 
 
-def _files_at(path):
+def _files_at(path, listed):
     """The files that are read for a path; itself if that cannot be seen."""
     try:
-        return files_of(path)
+        return files_of(path, listed)
     except OSError:  # deleted meanwhile
         return [path]
 

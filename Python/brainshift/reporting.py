@@ -98,7 +98,7 @@ def _distances(case):
     """Rows of distances: figure, before, after, unit, meaning."""
     rows = []
     for measure, name in ((case.trace_distance, "Traced points"),
-                          (case.contact_distance, "Contacts")):
+                          (case.contact_distance, case.name_of_contacts())):
         if measure is None:
             continue
         wanted = _measured_rows(measure, name)
@@ -257,16 +257,16 @@ def _kind(path, files):
     return ", ".join(filter(None, (end, count))) if files != [path] else end or "file"
 
 
-def _about_files(path):
+def _about_files(path, listed):
     """What lies at a path, its size and its hash."""
     kind = ending(path) or "file"
     if not os.path.exists(path):
         return kind, "", "the file is not on this machine"
     try:
-        files = files_of(path)
+        files = files_of(path, listed)
         if not files:
             return "0 files", "", "the folder has no files"
-        return _kind(path, files), _size(sum(map(os.path.getsize, files))), hash_of(path)
+        return _kind(path, files), _size(sum(map(os.path.getsize, files))), hash_of(path, listed)
     except OSError as error:
         return kind, "", f"it cannot be read: {error.strerror}"
 
@@ -280,10 +280,11 @@ def _files(case, names):
     rows = []
     for role in (*ROLES, "measured"):
         source = case.part(role)
-        for path in paths_of(source) if source is not None else []:
+        paths = paths_of(source) if source is not None else {}
+        for path, listed in paths.items():
             if role == "measured" and path in paths_of(case.part("landmarks")):
                 continue  # one file with both
-            kind, size, found = _about_files(path)
+            kind, size, found = _about_files(path, listed)
             name = os.path.basename(os.path.normpath(path))
             if names and ending(path) != kind != "file":
                 name += f" ({kind})"

@@ -4,6 +4,7 @@
 import hashlib
 import os
 import re
+from xml.sax.saxutils import unescape
 
 #: Files of metadata, by one of which a store of OME-Zarr may be opened.
 _ZARR = ("zarr.json", ".zattrs", ".zgroup", ".zarray")
@@ -11,6 +12,10 @@ _ZARR = ("zarr.json", ".zattrs", ".zgroup", ".zarray")
 #: Headers that may name files with their voxels, and the endings of pairs of Analyze and NIfTI.
 _HEADERS = (".mhd", ".mha", ".nhdr", ".nrrd")
 _PAIR = (".hdr", ".hdr.gz", ".img", ".img.gz")
+
+#: VTK's headers in XML that name files of parts, times or blocks, and the attributes that do.
+_XML = (".pvti", ".pvts", ".pvtp", ".pvtu", ".pvtr", ".pvd", ".vtm", ".vtmb")
+_NAMES_FILE = re.compile(rb"""\b(?:Source|file)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 
 #: Tables of BIDS whose unit and axes another file says.
 _TABLES = ("_electrodes.tsv", "_optodes.tsv")
@@ -20,12 +25,14 @@ _ABOUT = "_coordsystem.json"
 _LONGEST_HEADER, _MOST_FILES = 1 << 20, 65536
 
 
-def files_of(path):
+def files_of(path, listed=False):
     """The files that are read when a path is opened: a sorted list of paths.
 
+    - `listed`: whether a reader has a list of paths, of which this is one. Default `False`.
+
     - a folder: all files below it
-    - a file of DICOM, or of a store's metadata: the folder around it
-    - a header: itself and the files beside it that have its voxels
+    - a file of DICOM that is not listed, or of a store's metadata: the folder around it
+    - a header: itself and the files that it names, or that belong to it, with its values
     - a table of electrodes or optodes: itself and the `_coordsystem.json` that is about it
     - any other, even if it does not exist: itself
 
@@ -45,7 +52,9 @@ def files_of(path):
         beside = [os.path.join(folder, each) for each in _named_in(path)]
     elif name.endswith(_TABLES):
         beside = _about(path)
-    elif is_dicom(path):
+    elif name.lower().endswith(_XML):
+        beside = _named_in_xml(path)
+    elif not listed and is_dicom(path):
         beside = [os.path.join(folder, each) for each in os.listdir(folder or ".")
                   if not each.startswith(".")]
     else:
@@ -69,10 +78,10 @@ def is_store(path):
         os.path.isfile(os.path.join(path, name)) for name in _ZARR)
 
 
-def hash_of(path):
+def hash_of(path, listed=False):
     """The SHA-256 hash of a file that is read alone; of several that of their list: a line for each
     with its hash, two blanks and its name from the folder, as `sha256sum` writes it."""
-    files = files_of(path)
+    files = files_of(path, listed)
     if files == [path]:
         return _hash_of_file(path)
     folder = path if os.path.isdir(path) else os.path.dirname(path) or "."
@@ -124,6 +133,19 @@ def _named_in(header):
                 return [name.strip() for name in rest.splitlines() if name.strip()]
             return _numbered(words) if len(words) > 2 else [found.group(1).strip()]
     return []
+
+
+def _named_in_xml(header):
+    """Files that a header in XML names, and those that headers name that it names."""
+    found, waiting = set(), [header]
+    while waiting:
+        path = waiting.pop()
+        with open(path, "rb") as file:
+            names = [os.fsdecode(one or other) for one, other in _NAMES_FILE.findall(file.read())]
+        new = {os.path.join(os.path.dirname(path), unescape(name)) for name in names} - found
+        found |= new
+        waiting += [each for each in new if each.lower().endswith(_XML) and os.path.isfile(each)]
+    return sorted(found)
 
 
 def _numbered(words):

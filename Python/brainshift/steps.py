@@ -96,7 +96,7 @@ class Steps:
         lines = []
         for measure, points, name in (
                 (self.trace_distance, self.traces_now(), "traced points"),
-                (self.contact_distance, self.electrodes, "contacts")):
+                (self.contact_distance, self.electrodes, self.name_of_contacts().lower())):
             if measure is not None:
                 figures_of(measure)
                 total = points.GetDataInformation().GetNumberOfPoints()
@@ -114,6 +114,11 @@ class Steps:
         if self.traces is None and self.electrodes is None:
             return "traces, electrodes, or landmarks with both positions", ""
         return "a brain, or a surface_level", ""
+
+    def name_of_contacts(self):
+        """What the contacts are whose distance is measured. Before a fit no one asked which of them
+        belong to depth shafts, which lie below the cortex."""
+        return "Contacts" if self.part("at_rest") else "Contacts of grids and shafts alike"
 
     def _cavity_doubt(self):
         """A sentence if points are left out by a cavity whose reference was moved; else empty."""

@@ -413,7 +413,7 @@ def test_what_is_above_a_role_counts():
     moved = simple.Calculator(Input=reader, ResultArrayName="labels", Function="2*scalars")
     twice = simple.Calculator(Input=moved, ResultArrayName="labels 2", Function="2*scalars")
     case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), tumour=twice)
-    assert casesources.paths_of(case.tumour) == [file]
+    assert list(casesources.paths_of(case.tumour)) == [file]
     case.judged = "a line"
     simple.SaveState(scratch("above.pvsm"))
     assert case.judged == "a line"
@@ -510,7 +510,7 @@ def test_files_that_count_are_those_that_are_read():
             kept.write(b"NRRD0004\ndata file: c.raw\n" if file == files[2] else b"x")
 
     def count(path):
-        return len(casesources._written(path))
+        return len(casesources._written(path, False))
     assert count(folder) == 4 and count(files[0]) == 1, "of a folder those below it, too"
     assert count(files[2]) == 2 and count(folder + "/none") == 0, "data beside a header"
 

@@ -151,7 +151,10 @@ def test_other_electrodes_have_shapes_of_their_own():
 def test_contacts_have_the_error_of_their_sheet():
     grid("b_electrodes.tsv", "B")
     case = begun(electrodes="b_electrodes.tsv")
+    assert_says(found(case, "Measure").found, "20 of 20 contacts of grids and shafts alike count")
+    assert_says(reporting._distances(case)[0][0], "Contacts of grids and shafts alike")
     case.run("Fit")
+    assert_says(found(case, "Measure").found, "20 of 20 contacts count")
     sheet = brainshift.electrodes(path("b_electrodes.tsv"), case.brain).leave_one_out.mean()
     assert_says(found(case, "Fit").found, f"leave-one-out error of the sheet {sheet:.2f} mm")
     rows, _ = reporting._fit_rows(case)

@@ -141,16 +141,20 @@ def test_hashes_are_of_all_that_is_read():
     files = {"head.mhd": b"ElementDataFile = head.raw\n", "head.raw": b"1",
              "medium/st1/1": part, "medium/st2/2": part, "series/1.dcm": part,
              "series/2.dcm": part, "store.zarr/zarr.json": b"{}", "store.zarr/0/c/0/0": b"1",
-             "empty/.DS_Store": b""}
+             "empty/.DS_Store": b"",
+             "times.pvd": b"<DataSet timestep='0' file=\"parts &amp; more/a.pvti\"/>",
+             "parts & more/a.pvti": b"<Piece Extent='0 1' Source='1.vti'/>",
+             "parts & more/1.vti": b"1"}
     for name, content in files.items():
         os.makedirs(os.path.dirname(scratch(f"hashed/{name}")), exist_ok=True)
         with open(scratch(f"hashed/{name}"), "wb") as file:
             file.write(content)
 
-    def row(name):
-        return reporting._about_files(scratch(f"hashed/{name}"))
+    def row(name, listed=False):
+        return reporting._about_files(scratch(f"hashed/{name}"), listed)
     for name, kind, other in (
             ("head.mhd", ".mhd, 2 files", "head.raw"),
+            ("times.pvd", "3 files", "parts & more/1.vti"),
             ("medium", "DICOM series of 2 files", "medium/st2/2"),
             ("series/1.dcm", "DICOM series of 2 files", "series/2.dcm"),
             ("store.zarr", "OME-Zarr store", "store.zarr/0/c/0/0"),
@@ -167,6 +171,8 @@ def test_hashes_are_of_all_that_is_read():
     lines = "".join(f"{hashlib.sha256(content).hexdigest()}  {name}\n" for name, content in (
         ("1.dcm", part), ("2.dcm", part + 2000 * b"2")))  # as sha256sum prints them
     assert row("series")[2] == row("series/1.dcm")[2] == hashlib.sha256(lines.encode()).hexdigest()
+    alone = hashlib.sha256(part).hexdigest()  # its reader names each slice
+    assert row("series/1.dcm", listed=True)[2] == alone
     assert_says(" ".join(row("empty") + row("none.nii")), "has no files", "not on this machine")
 
 
