@@ -85,21 +85,19 @@ public:
     this->attach(fileName, choice, header);
   }
 
-  double storedBytes(const VolumeHeader& header) const override
+  // Without what a scale below 0 mirrors, which `load` asks for: it knows the box.
+  double storedBytes(const VolumeHeader&) const override
   {
     const ZarrArray& array = this->Image.levels[this->Level].array;
     double chunks = 1.0;
-    bool isMoved = false;
     for (const int axis : this->Image.axes.space)
     {
       chunks *= std::ceil(static_cast<double>(at(array.shape, axis, 1)) /
         static_cast<double>(at(array.chunk, axis, 1)));
-      isMoved = isMoved || at(this->Image.levels[this->Level].scale, axis, 1.0) < 0.0;
     }
     const double threads = std::max(1U, std::thread::hardware_concurrency());
     constexpr double PackedAndUnpacked = 2.0;
-    return std::min(chunks, threads) * PackedAndUnpacked * static_cast<double>(array.chunkBytes()) +
-      (isMoved ? VolumeFile::storedBytes(header) : 0.0);
+    return std::min(chunks, threads) * PackedAndUnpacked * static_cast<double>(array.chunkBytes());
   }
 
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override
@@ -128,6 +126,12 @@ public:
     }
     cut(this->Image.axes.time, static_cast<std::int64_t>(volume), 1, 0);
     cut(this->Image.axes.channel, std::max(this->Pyramid.channel, 0), components, 1);
+    if (this->isMirrored())
+    {
+      constexpr double readAndShown = 2.0;
+      requireHostMemory("a part of it that its scale mirrors",
+        readAndShown * static_cast<double>(numbers) * static_cast<double>(array.type.bytes));
+    }
     auto stored =
       vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array.type.vtkType));
     stored->SetNumberOfComponents(static_cast<int>(components));
@@ -137,6 +141,7 @@ public:
     if (readZarrBox(*this->Store, array, box, progress, &damages) &&
       this->replaceDamaged(damages, progress, voxels))
     {
+      requireAsRead(*this->Store, array); // or chunks that are missing would count as empty
       voxels.image = vtkSmartPointer<vtkImageData>::New();
       voxels.image->SetExtent(const_cast<int*>(wanted.data()));
       voxels.image->GetPointData()->SetScalars(stored);
@@ -151,6 +156,14 @@ private:
   std::size_t Level = 0;
   std::string Chosen;
   PyramidChoice Pyramid{ -1, 2048.0, -1 };
+
+  bool isMirrored() const
+  {
+    const std::vector<double>& scale = this->Image.levels[this->Level].scale;
+    const std::array<int, 3>& space = this->Image.axes.space;
+    return std::any_of(space.begin(), space.end(),
+      [&scale](int axis) { return at(scale, axis, 1.0) < 0.0; });
+  }
 
   // Fills what could not be read. False: stopped.
   bool replaceDamaged(

@@ -292,11 +292,29 @@ std::size_t ZarrArray::chunkBytes() const
   return bytes;
 }
 
+namespace
+{
+std::optional<std::int64_t> writtenOf(const ZarrStore& store, const std::string& path)
+{
+  const std::optional<std::int64_t> written = store.written(keyIn(path, "zarr.json"));
+  return written ? written : store.written(keyIn(path, ".zarray"));
+}
+}
+
+void requireAsRead(const ZarrStore& store, const ZarrArray& array)
+{
+  throwIfAny(writtenOf(store, array.path) == array.written
+      ? std::string()
+      : "has an array '" + shownWords(array.path) +
+        "' that was written anew, moved or deleted after it was opened; reload it");
+}
+
 ZarrArray readZarrArray(const ZarrStore& store, const std::string& path)
 {
   ZarrArray array;
   array.path = path;
   std::int64_t version = 3;
+  array.written = writtenOf(store, path);
   std::optional<Json> json = readJson(store, keyIn(path, "zarr.json"));
   if (!json)
   {

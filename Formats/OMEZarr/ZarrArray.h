@@ -10,6 +10,7 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct ZarrArray
   std::string separator;  ///< between them
   ZarrShards shards;
   bool hasAllChunks = false; ///< its writer leaves out none: one that is missing is damage
+  std::optional<std::int64_t> written; ///< when its metadata was, as ZarrStore tells
 
   std::size_t chunkBytes() const; ///< unpacked
   bool hasShards() const { return !this->shards.shape.empty(); }
@@ -54,6 +56,9 @@ struct ZarrArray
 
 /** Throws the end of a sentence about the array, or if there is none. */
 ZarrArray readZarrArray(const ZarrStore& store, const std::string& path);
+
+/** Throws the end of a sentence if the array was written anew, moved or deleted since. */
+void requireAsRead(const ZarrStore& store, const ZarrArray& array);
 
 /** The bytes of one number of a type from the JSON of a fill value. */
 std::string fillBytes(const Json& json, const ZarrType& type);

@@ -51,6 +51,13 @@ public:
     return fileBytes(this->pathOf(key), offset, count);
   }
 
+  std::optional<std::int64_t> written(const std::string& key) const override
+  {
+    std::error_code error;
+    const fs::file_time_type time = fs::last_write_time(systemPath(this->pathOf(key)), error);
+    return error ? std::nullopt : std::optional<std::int64_t>(time.time_since_epoch().count());
+  }
+
 private:
   std::string Folder;
 
@@ -75,6 +82,11 @@ public:
   std::string part(const std::string& key, std::uint64_t offset, std::uint64_t count) const override
   {
     return this->File.part(this->Top + key, offset, count);
+  }
+
+  std::optional<std::int64_t> written(const std::string& key) const override
+  {
+    return this->size(key) ? std::optional<std::int64_t>(0) : std::nullopt;
   }
 
 private:

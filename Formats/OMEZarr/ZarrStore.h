@@ -30,6 +30,12 @@ public:
   virtual std::string part(
     const std::string& key, std::uint64_t offset, std::uint64_t count) const = 0;
 
+  /**
+   * When an entry was written, in ticks of the file system's clock; none if it is not there. An
+   * archive gives 0: its checksums tell.
+   */
+  virtual std::optional<std::int64_t> written(const std::string& key) const = 0;
+
   /** A whole entry of up to `limit` bytes; none if it is not there. */
   std::optional<std::string> read(const std::string& key, std::uint64_t limit) const;
 };

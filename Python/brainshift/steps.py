@@ -242,9 +242,7 @@ class Steps:
             return []
         found = [*self._doubts_about_files(), *self._doubts_about_points(),
                  *self._doubts_about_fit(), *self._doubts_about_reference(),
-                 *self._doubts_about_tissue()]
-        if all(self.landmarks or (None,)) and self.landmarks_fitted_before():
-            found.append(("Judge", _USED_BEFORE))
+                 *self._doubts_about_tissue(), self._doubt_about_landmarks()]
         return [(step, sentence) for step, sentence in found if sentence]
 
     def _doubts_about_files(self):
@@ -279,6 +277,26 @@ class Steps:
             yield "Fit", figures_of(grids).GetPropertyValue("Warning")
         if self.traced is not None or self.electrodes is not None:
             yield "Fit", self._cavity_doubt()
+
+    def _doubt_about_landmarks(self):
+        """Landmarks that the deformation did not use may be no nearer than without it."""
+        if not all(self.landmarks or (None,)):
+            return "Judge", ""
+        if self.landmarks_fitted_before():
+            return "Judge", _USED_BEFORE
+        errors, fit = self.landmark_errors(), self.fit_source()
+        if errors is None:
+            return "Judge", ""
+        before = float(errors.before.mean())
+        if self.fits_landmarks():
+            left_out = Fit(fit).left_out_of_used
+            return "Fit", (f"Landmarks that are left out are no nearer than without the fit: "
+                           f"{left_out.mean():.2f} mm in the mean, {before:.2f} mm without it. "
+                           "Between landmarks the fit may do harm"
+                           if len(left_out) and left_out.mean() >= before else "")
+        return "Judge", (f"The landmarks are farther off than without the deformation: "
+                         f"{errors.mean:.2f} mm in the mean, {before:.2f} mm without it"
+                         if errors.mean > before + 1e-6 else "")
 
     def _doubts_about_reference(self):
         if self.comparison is not None:

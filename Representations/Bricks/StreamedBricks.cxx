@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace brainshift
@@ -85,23 +86,26 @@ std::optional<FineGrid> levelFor(const DrawnValues& values, const std::vector<Gr
   const BrickView& view, double pixelsWide)
 {
   const double pixelMm = pixelsWide * pixelAt(values, view);
-  const auto widest = [&](const glm::dvec3& voxels) {
-    double mm = 0.0;
+  const auto sides = [&](const glm::dvec3& voxels) {
+    glm::dvec3 mm;
     for (int axis = 0; axis < 3; ++axis)
     {
-      mm = std::max(mm, glm::length(glm::dvec3(view.frame.worldFromTexture[axis])) / voxels[axis]);
+      mm[axis] = glm::length(glm::dvec3(view.frame.worldFromTexture[axis])) / voxels[axis];
     }
     return mm;
   };
-  double held = widest(glm::dvec3(values.layout.dimensions));
+  glm::dvec3 held = sides(glm::dvec3(values.layout.dimensions));
   std::optional<FineGrid> found;
-  for (std::size_t level = finer.size(); level-- > 0 && held > pixelMm;)
+  for (std::size_t level = finer.size(); level-- > 0;)
   {
     const std::optional<FineGrid> fine = placed(values, finer[level], level);
-    if (fine && widest(fine->voxelFromTexture) < 0.99 * held)
+    const glm::dvec3 mm = fine ? sides(fine->voxelFromTexture) : held;
+    const auto isSeen = glm::greaterThan(held, glm::dvec3(pixelMm));
+    const auto isFiner = glm::lessThan(mm, 0.99 * held); // along one axis is enough
+    if ((isSeen.x && isFiner.x) || (isSeen.y && isFiner.y) || (isSeen.z && isFiner.z))
     {
       found = fine;
-      held = widest(fine->voxelFromTexture);
+      held = mm;
     }
   }
   return found;
@@ -121,6 +125,10 @@ bool StreamedBricks::accepts(const TissueRequest& tissue) const
 // picture to picture; bricks that fit are not read again for that.
 bool StreamedBricks::hasRoomFor(const BrickView& view) const
 {
+  if (view.setMiB != this->SetMiB) // which a message may have asked for
+  {
+    return false;
+  }
   if (view.limitMiB == this->LimitMiB)
   {
     return true;
@@ -157,6 +165,7 @@ void StreamedBricks::chooseLevel(const BrickView& view, const TissueRequest& tis
     this->Atlas = nullptr;
     this->IsRefused = false;
     this->LimitMiB = view.limitMiB;
+    this->SetMiB = view.setMiB;
     this->Level = level;
     this->Order = order;
     this->forgetBricks();
@@ -169,6 +178,7 @@ void StreamedBricks::forgetBricks()
   this->Wanted.clear();
   this->Quiet = { 0, 0 };
   this->Full = { false, false };
+  this->Lost = { 0, 0 };
   this->Changes += 1;
 }
 
@@ -276,12 +286,27 @@ void StreamedBricks::beginView()
   this->View += 1;
   this->Quiet[this->Eye] = 0;
   this->Full[this->Eye] = false;
+  this->Lost[this->Eye] = 0;
   this->Wanted.clear();
 }
 
+// What could not be read is asked for again after a while.
 bool StreamedBricks::asks(bool isChanged) const
 {
-  return this->Asks && (isChanged || !this->isQuiet(this->Eye));
+  const Clock::time_point now = Clock::now();
+  const bool mayBeMended = std::any_of(this->Failed.begin(), this->Failed.end(),
+    [now](const auto& failed) { return failed.second <= now; });
+  return this->Asks && (isChanged || mayBeMended || !this->isQuiet(this->Eye));
+}
+
+// Each kind once: where the file is damaged, and where nothing of it can be read.
+void StreamedBricks::report(GpuTask& gpu, const ReadBrick& read)
+{
+  bool& isReported = read.numbers.empty() ? this->ReportedLoss : this->ReportedDamage;
+  if (!read.remark.empty() && !std::exchange(isReported, true))
+  {
+    gpu.remarks.push_back(read.remark);
+  }
 }
 
 void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures)
@@ -342,10 +367,7 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
   {
     this->place(read, textures);
     this->Changes += 1;
-    if (!read.remark.empty() && !std::exchange(this->ReportedDamage, true))
-    {
-      gpu.remarks.push_back(read.remark);
-    }
+    this->report(gpu, read);
   }
   this->uploadPages();
   bricks.pages = this->Pages;
@@ -401,14 +423,19 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
 std::vector<int> StreamedBricks::inOrder(const std::map<int, int>& pixels)
 {
   const Clock::time_point now = Clock::now();
-  const auto hasFailed = [&](int brick) {
-    const auto failed = this->Failed.find(brick);
-    return failed != this->Failed.end() && now < failed->second;
-  };
+  for (auto failed = this->Failed.begin(); failed != this->Failed.end();)
+  {
+    failed = failed->second <= now ? this->Failed.erase(failed) : std::next(failed);
+  }
   std::vector<std::pair<int, int>> sorted;
+  this->Lost[this->Eye] = 0;
   for (const auto& [brick, count] : pixels)
   {
-    if (!hasFailed(brick) && this->Table.slotOf(brick) == PageTable::None)
+    if (this->Failed.count(brick) > 0)
+    {
+      this->Lost[this->Eye] += 1;
+    }
+    else if (this->Table.slotOf(brick) == PageTable::None)
     {
       sorted.emplace_back(-count, brick);
     }

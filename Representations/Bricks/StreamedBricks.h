@@ -22,6 +22,7 @@ struct BrickView
   SceneFrame frame;
   glm::ivec2 pixels{ 0 }; ///< Of the picture, a side.
   double limitMiB = 0.0;  ///< For the bricks; 0: as much as is usual.
+  double setMiB = 0.0;    ///< The limit of all memory that a user set; 0: none.
   bool asks = true;       ///< Rays ask for bricks.
   int eye = 0;            ///< 1: the right one of two.
   bool isOfBoth = false;  ///< The other eye is drawn into the same picture.
@@ -84,6 +85,12 @@ public:
   /// The view asks for more than there is room for.
   bool lacksRoom() const;
 
+  /// Bricks that the view asks for and that cannot be read now.
+  int lost() const { return this->Lost[this->Eye]; }
+
+  /// Whether bricks of a finer level suit what is drawn.
+  bool isStreamed() const { return this->Level && this->Atlas; }
+
   /// Adds the present state to the counters. The GPU is not asked.
   void count(Counters& counters) const;
 
@@ -100,6 +107,7 @@ private:
   void forgetBricks();
   void place(const ReadBrick& read, TissueTextures& textures);
   std::vector<int> inOrder(const std::map<int, int>& pixels);
+  void report(GpuTask& gpu, const ReadBrick& read);
   void uploadPages();
   bool isQuiet(int eye) const;
   std::int64_t wantedUntil(bool isQuiet) const;
@@ -116,11 +124,13 @@ private:
   vtkSmartPointer<vtkTextureObject> Pages;
   int Bytes = 4;                             // of a voxel
   double LimitMiB = 0.0;                     // see BrickView
+  double SetMiB = 0.0;                       // see BrickView
   bool IsRefused = false;                    // the memory for it
   vtkWeakPointer<vtkTextureObject> RangesOf; // whose ranges were widened
   std::map<int, Clock::time_point> Failed;   // bricks that cannot be read until then
   std::vector<int> Wanted;                   // as ordered last
-  bool ReportedDamage = false;               // of this source
+  bool ReportedDamage = false;               // of this source: coarser voxels are in its place
+  bool ReportedLoss = false;                 // of this source: there are none
   int Eye = 0;                               // of the last picture
   bool IsOfBoth = false;
   std::int64_t View = 0;    // counts views
@@ -128,6 +138,7 @@ private:
   int Pictures = 0;
   std::array<int, 2> Quiet{ 0, 0 };         // pictures of each eye in a row without a wish
   std::array<bool, 2> Full{ false, false }; // its view asks for more than there is room for
+  std::array<int, 2> Lost{ 0, 0 };          // bricks that it asks for and that cannot be read
 };
 }
 

@@ -435,6 +435,14 @@ bool Picture::measure(
   return true;
 }
 
+std::vector<glm::vec2> Picture::takeWishes()
+{
+  std::vector<glm::vec2> all = this->Whole.images().takeWishes();
+  const std::vector<glm::vec2> rough = this->Rough.images().takeWishes();
+  all.insert(all.end(), rough.begin(), rough.end());
+  return all;
+}
+
 std::vector<vtkTextureObject*> Picture::textures() const
 {
   std::vector<vtkTextureObject*> all = this->Whole.images().textures();

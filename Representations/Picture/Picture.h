@@ -117,6 +117,9 @@ public:
   CastImages& images() { return this->Whole.images(); }
   const CastImages& images() const { return this->Whole.images(); }
 
+  /// The bricks that rays asked for since the last call, also where fewer of them were cast.
+  std::vector<glm::vec2> takeWishes();
+
   /// The light to lay over the picture that was cast last.
   const PictureShade& shade() const { return this->Shade; }
 

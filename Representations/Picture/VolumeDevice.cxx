@@ -146,7 +146,7 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
     {
       return false;
     }
-    this->Bricks.finish(this->images().takeWishes());
+    this->Bricks.finish(this->Picture.takeWishes());
   } while (!isLast && this->Bricks.waitForMore(capture.deadline()));
   if (waits)
   {
@@ -163,16 +163,20 @@ void VolumeDevice::reportIfCoarse(GpuTask& gpu) const
 {
   gpu.remarks.push_back(this->Bricks.problem()); // which may have come up while it waited
   const std::int64_t wanted = this->Bricks.wantedByEye();
-  if ((wanted <= 0 && !this->Bricks.lacksRoom()) || !PictureCapture::current().warns())
+  const int lost = this->Bricks.lost();
+  const bool isWhole = wanted <= 0 && lost == 0 && !this->Bricks.lacksRoom();
+  if (isWhole || !PictureCapture::current().warns())
   {
     return;
   }
-  const std::string coarser = "A picture that was saved is coarser in places: ";
-  gpu.warnings.push_back(wanted > 0
-      ? coarser + std::to_string(wanted) + " bricks of finer voxels or more were still to come " +
-        "after " + std::to_string(PictureCapture::LongestWait.count()) +
-        " s. Save it once more to wait for them"
-      : coarser + "there is no memory for more bricks of finer voxels. Set a greater Memory Limit");
+  gpu.warnings.push_back("A picture that was saved is coarser in places: " +
+    (wanted > 0 ? std::to_string(wanted) + " bricks of finer voxels or more were still to come " +
+          "after " + std::to_string(PictureCapture::LongestWait.count()) +
+          " s. Save it once more to wait for them"
+        : lost > 0
+        ? std::to_string(lost) + " bricks of finer voxels cannot be read, as a message tells. Mend " +
+          "the file and save the picture once more, some 30 s later"
+        : "there is no memory for more bricks of finer voxels. Set a greater Memory Limit"));
 }
 
 bool VolumeDevice::castTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
@@ -263,7 +267,13 @@ TissueRequest VolumeDevice::planBricks(
     view.limitMiB =
       std::max(request.memoryLimitMiB - static_cast<double>(need.total()) / bytesInMiB, leastMiB);
   }
+  view.setMiB = request.memoryLimitMiB;
   this->Bricks.plan(gpu, view, tissue);
+  if (!view.asks && this->Bricks.isStreamed())
+  {
+    gpu.remarks.push_back("No finer voxels come while samples are counted: switch Count Samples "
+                          "off to draw all detail");
+  }
   return tissue;
 }
 

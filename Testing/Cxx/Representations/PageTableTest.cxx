@@ -175,8 +175,9 @@ TEST(CoveredRanges, HoldAllThatInterpolationFinds)
 
 namespace
 {
-// 64 voxels of 2 mm a side, seen in parallel: 100 pixels show twice `half` mm.
-std::optional<FineGrid> levelSeen(double half)
+// 64 voxels of 2 mm a side, seen in parallel: 100 pixels show twice `half` mm. `acrossMm`: how far
+// apart the slices of the two finer levels are.
+std::optional<FineGrid> levelSeen(double half, glm::dvec2 acrossMm = { 0.5, 1.0 })
 {
   DrawnValues values;
   values.grid.dimensions = glm::ivec3(64);
@@ -189,6 +190,12 @@ std::optional<FineGrid> levelSeen(double half)
   finer[0].origin = glm::dvec3(-0.25);
   finer[1].dimensions = glm::ivec3(128);
   finer[1].spacing = glm::dvec3(1.0);
+  for (int i = 0; i < 2; ++i)
+  {
+    finer[i].dimensions.z = static_cast<int>(128.0 / acrossMm[i]);
+    finer[i].spacing.z = acrossMm[i];
+    finer[i].origin.z = 0.5 * acrossMm[i] - 0.5;
+  }
   BrickView view;
   view.pixels = glm::ivec2(100);
   const vtkNew<vtkMatrix4x4> unmoved;
@@ -212,4 +219,18 @@ TEST(LevelFor, HasVoxelsNoLongerThanAPixel)
   EXPECT_NEAR(fine.voxelFromTexture.x, 128.0, 1e-9);
   // The volume's texture begins at -0.5 mm, the level's first voxel, at 0 mm, does, too.
   EXPECT_NEAR(fine.voxelOfTextureZero.x, 0.0, 1e-9);
+}
+
+TEST(LevelFor, TakesOneThatIsFinerWithinSlicesAlone)
+{
+  FineGrid none;
+  none.level = 99;
+  // Slices of 1 mm in both levels, which are as near to each other as pixels ask for, or not.
+  EXPECT_EQ(levelSeen(90.0, { 1.0, 1.0 }).value_or(none).level, 1U);
+  EXPECT_EQ(levelSeen(40.0, { 1.0, 1.0 }).value_or(none).level, 0U);
+  EXPECT_EQ(levelSeen(2.0, { 1.0, 1.0 }).value_or(none).level, 0U);
+  // Slices as far apart as in what is held.
+  EXPECT_EQ(levelSeen(90.0, { 2.0, 2.0 }).value_or(none).level, 1U);
+  EXPECT_EQ(levelSeen(40.0, { 2.0, 2.0 }).value_or(none).level, 0U);
+  EXPECT_FALSE(levelSeen(150.0, { 2.0, 2.0 }));
 }

@@ -3,6 +3,7 @@
 # as the finest level is, read and drawn directly, also bent, clipped to a small memory, with a
 # chunk that is damaged, while it is bent again and in two views. Skipping changes no bit of it.
 import os
+import shutil
 
 import numpy
 import zarr_files
@@ -232,6 +233,55 @@ def test_damaged():
     assert said.text.count("cannot be read everywhere") == 1, said.text
     assert differences(image, picture(direct.view))[1] == 0
     direct.close()
+    shown.close()
+
+
+def test_a_store_that_changed_after_it_was_opened():
+    """Chunks that are gone would count as empty, and those of a new store are of another volume:
+    the coarse picture stays. Later pictures tell it, too."""
+    def rewritten(path):
+        write_array(path, "0", voxels() // 2, 2, (20, 24, 28))
+    for change in (lambda path: os.rename(path, path + ".moved"), rewritten):
+        shutil.rmtree(fresh("bricks.zarr") + ".moved", ignore_errors=True)
+        path = store()
+        shown = Shown(coarse(path))
+        near = list(shown.view.CameraPosition)
+        shown.view.CameraPosition = [48.0, 56.0, 1300.0]
+        shown.detail()  # now the finer levels are known
+        change(path)
+        shown.view.CameraPosition = near
+        with messages() as said:
+            image, state = shown.detail()
+            save("changed.png", shown.view, 120)
+        assert state["gpuBricks"] == 0, state
+        assert_says(said.text, "written anew, moved or deleted", "reload it", "coarser in places",
+                    "cannot be read")
+        before = Shown(blurred())
+        assert differences(image, picture(before.view))[1] == 0
+        before.close()
+        shown.close()
+
+
+def test_counted_samples_bring_no_bricks():
+    shown = Shown(coarse(store()), CountSamples=1)
+    with messages() as said:
+        _, state = shown.detail()
+    assert state["gpuBricks"] == 0, state
+    assert_says(said.text, "Count Samples")
+    shown.close()
+
+
+def test_a_little_more_memory_counts():
+    """A message asks for it."""
+    shown = Shown(bent(coarse(store())))
+    _, state = shown.detail()
+    need = sum(state[name] for name in ("gpuScalarBytes", "gpuOtherBytes")) / 2 ** 20
+    brick = 36 ** 3 * 4 / 2 ** 20
+    drawn = []
+    for share in (0.45, 0.25):  # of less than half as much again
+        shown.display.MemoryLimit = need - share * state["gpuBricks"] * brick
+        drawn.append(shown.detail()[1]["gpuBricks"])
+    assert drawn[1] > drawn[0], drawn
     shown.close()
 
 

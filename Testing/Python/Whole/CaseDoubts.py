@@ -97,7 +97,9 @@ def test_landmarks_that_no_fit_used_judge_a_refinement():
     case.run("Fit")
     refined(case)
     assert_says(case.run("Judge").found, "of 8 landmarks", "mm on average")
-    assert "Judge" not in case.doubtful() and "landmarks mean (mm)" in figures_of_case(case)
+    # A refinement that is stopped at once may well be worse than none, which is another doubt.
+    assert not any("used the landmarks" in text for _, text in case.doubts()), case.doubts()
+    assert "landmarks mean (mm)" in figures_of_case(case)
 
 
 def test_a_refinement_is_of_its_reference():
@@ -209,6 +211,37 @@ def test_a_fit_without_its_brain_is_doubted():
     assert any("taken away" in text for text in reporting._warnings(case))
     case.brain = path("sub-1_brainmask.nii.gz")
     assert "Fit" not in case.doubtful(), case.doubts()
+
+
+def test_landmarks_that_are_no_nearer_are_a_doubt():
+    """Neighbours that moved in opposite directions: each predicts the other wrongly. And a stroke
+    away from where landmarks were measured is worse than none."""
+    random = numpy.random.default_rng(3)
+    columns = [f"{axis}_{when}" for when in ("rest", "measured") for axis in "xyz"]
+    rest = numpy.repeat(MIDDLE + random.uniform(-25, 25, (6, 3)), 2, axis=0)
+    rest[1::2, 0] += 4.0
+    for name, shifts in (("apart.csv", [(0.0, 0.0, 3.0), (0.0, 0.0, -3.0)] * 6),
+                         ("together.csv", [(0.0, 0.0, -3.0)] * 12)):
+        with open(path(name), "w", encoding="utf-8") as file:
+            file.write(",".join(["name", *columns]) + "\n")
+            for i, pair in enumerate(numpy.column_stack((rest, rest + shifts))):
+                file.write(",".join([f"N{i}", *map(str, pair)]) + "\n")
+    case = begun(landmarks="apart.csv")
+    assert case.doubts() == []
+    case.run("Fit")
+    assert_says(found(case, "Fit").found, "no nearer than without the fit")
+    assert case.doubtful() == {"Fit"}
+    case = begun(landmarks="together.csv")
+    case.run("Fit")
+    assert case.doubtful() == set(), case.doubts()
+    case = begun()
+    case.landmarks_judge = True
+    case.landmarks = path("targets.csv")
+    case.bent.Strokes = brainshift.soft([MIDDLE] * 3, (0, 0, 8), 60)  # they sank
+    assert_says(case.run("Judge").found, "farther off than without the deformation")
+    assert case.doubtful() == {"Judge"}
+    case.bent.Strokes = []
+    assert case.doubtful() == set(), case.doubts()
 
 
 def test_the_first_tile_has_figures_of_now():
