@@ -100,9 +100,8 @@ constexpr const char* CTStorage = "1.2.840.10008.5.1.4.1.1.2";
 constexpr const char* MRStorage = "1.2.840.10008.5.1.4.1.1.4";
 constexpr const char* PETStorage = "1.2.840.10008.5.1.4.1.1.128";
 constexpr const char* SecondaryCapture = "1.2.840.10008.5.1.4.1.1.7";
-constexpr std::size_t LongestText = 64; // of VR LO
-constexpr int FirstNumber = 1000;       // added to the number of the source's series
-constexpr int LastNumber = 2000000000;  // VR IS ends at 2147483647
+constexpr int FirstNumber = 1000;      // added to the number of the source's series
+constexpr int LastNumber = 2000000000; // VR IS ends at 2147483647
 
 constexpr DICOMTag Modality = 0x00080060;
 constexpr DICOMTag SeriesDescription = 0x0008103e;
