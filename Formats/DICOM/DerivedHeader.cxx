@@ -3,6 +3,7 @@
 
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMFile.h"
+#include "Formats/DICOM/DICOMSegments.h"
 #include "Formats/Files/PlainFile.h"
 
 #include <algorithm>
@@ -211,6 +212,20 @@ void requireKept(const DICOMDataSet& set)
   }
 }
 
+// Structures, reports and presentations are DICOM files of the patient without an image.
+void requireScan(const DICOMContent& content)
+{
+  if (wholeOf(content.set, 0x00280010, 0.0) <= 0.0 ||
+    wholeOf(content.set, 0x00280011, 0.0) <= 0.0 || content.pixelOffset == 0)
+  {
+    throw Problem("is no DICOM image: it lacks Rows, Columns or pixels");
+  }
+  if (segmentKindOf(content.set) != SegmentKind::None)
+  {
+    throw Problem("is no DICOM image of a scanner: it is a segmentation");
+  }
+}
+
 // Throws the end of a sentence, after the name of the file, if it cannot be taken.
 void readImage(const std::string& fileName, DICOMDataSet& source)
 {
@@ -226,8 +241,9 @@ void readImage(const std::string& fileName, DICOMDataSet& source)
     throw Problem("is damaged at byte " + std::to_string(content.end) + " of " +
       std::to_string(bytes.size()) + ": no attribute is there, or its length is wrong");
   }
+  requireKept(content.set);
+  requireScan(content);
   source = std::move(content.set);
-  requireKept(source);
 }
 
 void setNow(DerivedSet& set)
