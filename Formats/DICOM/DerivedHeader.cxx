@@ -111,6 +111,7 @@ constexpr DICOMTag StudyUID = 0x0020000d;
 constexpr DICOMTag FrameOfReferenceUID = 0x00200052;
 constexpr DICOMTag ScanningSequence = 0x00180020;
 constexpr DICOMTag SequenceVariant = 0x00180021;
+constexpr DICOMTag Units = 0x00541001;
 
 // What is kept of the source: patient, study, frame of reference, and how the image was taken. All
 // of it is text, which no order of bytes changes. Types are those of the standard's dictionary:
@@ -129,6 +130,7 @@ const std::pair<DICOMTag, const char*> Kept[] = {
   { 0x0020000d, "UI" }, { 0x00200010, "SH" }, { 0x00200052, "UI" }, { 0x00200060, "CS" },
   { 0x00201040, "LO" },                       // study, frame of reference
   { 0x00281050, "DS" }, { 0x00281051, "DS" }, // grey values that are shown
+  { Units, "CS" },                            // of PET
 };
 
 // What must stand there, empty if nobody knows it (type 2 of the standard).
@@ -146,12 +148,14 @@ const std::pair<DICOMTag, const char*> Required[] = {
   { 0x00201040, "LO" },
 };
 
-// Multi-frame images become slices of the same kind.
-std::string storageOf(const std::string& modality)
+// Multi-frame images become slices of the same kind. A PET image must have a unit.
+std::string storageOf(const DICOMDataSet& source)
 {
+  const std::string modality = textOf(source, Modality);
+  const bool isPET = modality == "PT" && !textOf(source, Units).empty();
   return modality == "CT" ? CTStorage
     : modality == "MR"    ? MRStorage
-    : modality == "PT"    ? PETStorage
+    : isPET               ? PETStorage
                           : SecondaryCapture;
 }
 
@@ -266,10 +270,10 @@ void setNow(DerivedSet& set)
   }
 }
 
-// How the image was taken, and its grey values.
+// How the image was taken, its grey values and their unit.
 bool isOfScanner(DICOMTag tag)
 {
-  return tag >> 16 == 0x0018 || tag >> 16 == 0x0028;
+  return tag >> 16 == 0x0018 || tag >> 16 == 0x0028 || tag == Units;
 }
 
 template <typename Choice>
@@ -288,11 +292,16 @@ void keep(const DICOMDataSet& source, DerivedSet& set, const Choice& isMeant)
 void setKind(const DICOMDataSet& source, DerivedSet& set)
 {
   const std::string modality = textOf(source, Modality);
-  setText(set, 0x00080016, "UI", storageOf(modality));
+  const std::string storage = storageOf(source);
+  setText(set, 0x00080016, "UI", storage);
   setText(set, 0x00080008, "CS", "DERIVED\\SECONDARY\\OTHER");
   setText(set, 0x00080070, "LO", "BrainShift");
   setText(set, 0x00082111, "ST", std::string("Volume of BrainShift: ") + NotForClinicalUse);
-  if (storageOf(modality) == SecondaryCapture)
+  if (storage != PETStorage)
+  {
+    set.erase(Units);
+  }
+  if (storage == SecondaryCapture)
   {
     setText(set, 0x00080064, "CS", "WSD"); // made at a workstation
   }

@@ -29,6 +29,7 @@ DIRECTIONS = {"along": numpy.eye(3), "oblique": OBLIQUE,
               "coronal and mirrored": OBLIQUE[:, (0, 2, 1)]}
 SHAPE = (4, 5, 7)
 STORED = {"CT": "1.2.840.10008.5.1.4.1.1.2", "MR": "1.2.840.10008.5.1.4.1.1.4"}
+PET, SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.128", "1.2.840.10008.5.1.4.1.1.7"
 FRAME = "1.2.3.4.5.6"
 NOTICE = "research, not for clinical use"
 
@@ -286,6 +287,26 @@ def test_like_must_be_an_image_of_a_scanner():
             source_of(numbers(numpy.int16)), folder, scan), f"Like is {scan}, which is no DICOM "
             "image", "segmentation" if "segments" in name else "it lacks Rows, Columns or pixels")
         assert not os.path.exists(folder)
+
+
+def test_pet_keeps_its_unit():
+    def pet(units):
+        def change(scan):
+            scan.SOPClassUID, scan.Modality = PET, "PT"
+            if units:
+                scan.Units = units
+        return change
+
+    for units, kind in (("BQML", PET), ("", SECONDARY_CAPTURE)):
+        folder = fresh("pet")
+        brainshift.save_dicom(source_of(numbers(numpy.int16)), folder,
+                              changed_scan(scratch("like-pet.dcm"), pet(units)))
+        for image in slices_of(folder):
+            assert image.SOPClassUID == kind and image.Modality == "PT"
+            assert image.get("Units", "") == units
+    brainshift.save_dicom(source_of(numbers(numpy.int16)), fresh("mr"), changed_scan(
+        scratch("like-mr.dcm"), lambda scan: setattr(scan, "Units", "BQML")))
+    assert "Units" not in slices_of(scratch("export-mr"))[0]
 
 
 def test_what_cannot_be_written_says_so_and_leaves_nothing():
