@@ -316,7 +316,7 @@ void setPixelFormat(const DerivedPixels& pixels, DerivedSet& set)
 {
   const Grid& grid = pixels.grid;
   setWhole(set, 0x00280002, 1); // samples of a pixel
-  setText(set, 0x00280004, "CS", "MONOCHROME2");
+  setText(set, 0x00280004, "CS", pixels.smallIsBright ? "MONOCHROME1" : "MONOCHROME2");
   setWhole(set, 0x00280010, grid.dimensions.y);
   setWhole(set, 0x00280011, grid.dimensions.x);
   setText(set, 0x00280030, "DS", decimalText(grid.spacing.y) + "\\" + decimalText(grid.spacing.x));

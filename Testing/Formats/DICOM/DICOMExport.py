@@ -13,7 +13,7 @@ from dicom_testing import assert_placed as assert_read
 from dicom_testing import set_pixels
 from pydicom.dataset import FileDataset, FileMetaDataset
 from saving_testing import assert_fails, assert_nothing_left, full_disk
-from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -287,6 +287,29 @@ def test_like_must_be_an_image_of_a_scanner():
             source_of(numbers(numpy.int16)), folder, scan), f"Like is {scan}, which is no DICOM "
             "image", "segmentation" if "segments" in name else "it lacks Rows, Columns or pixels")
         assert not os.path.exists(folder)
+
+
+def test_small_numbers_that_are_bright_stay_so():
+    mark = vtkUnsignedCharArray()
+    mark.SetName("SmallIsBright")
+    mark.InsertNextValue(1)
+    array = numbers(numpy.int16)
+    source = source_of(array)
+    output(source).GetFieldData().AddArray(mark)
+    source.MarkModified(source.SMProxy)
+    for one in (source, BakeDeformation(Input=FreeFormDeformation(Input=source))):
+        folder = fresh("bright")
+        with messages() as told:
+            brainshift.save_dicom(one, folder, like())
+        assert not told.text, told.text
+        images = slices_of(folder)
+        assert {image.PhotometricInterpretation for image in images} == {"MONOCHROME1"}
+        assert_placed(images, source, array, 0.0, "MONOCHROME1")
+    with messages() as told:
+        reader = OpenDataFile(folder)
+        reader.UpdatePipeline()
+    assert_says(told.text, "has small numbers that are bright", "MONOCHROME1")
+    assert output(reader).GetFieldData().GetArray("SmallIsBright").GetValue(0) == 1
 
 
 def test_pet_keeps_its_unit():
