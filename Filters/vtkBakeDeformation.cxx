@@ -12,6 +12,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -126,6 +127,10 @@ int vtkBakeDeformation::RequestData(
   output->CopyStructure(input);
   nameWorldAxes(output, worldAxesOf(input));
   attachLabels(output, attachedLabels(input));
+  for (const char* name : { "Unit", "SmallIsBright" }) // of the values, for writers
+  {
+    output->GetFieldData()->AddArray(input->GetFieldData()->GetAbstractArray(name));
+  }
   output->SetExtent(extent);
   const auto proceed = [this](double fraction) {
     this->UpdateProgress(fraction);

@@ -5,13 +5,13 @@
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace brainshift
 {
 namespace
 {
-constexpr std::size_t LongestShownText = 64; // of VR LO
 constexpr std::string_view Padding("\0 \t\r\n", 5);
 constexpr DICOMTag SpecificCharacterSet = 0x00080005;
 
@@ -22,6 +22,11 @@ const std::string& bytesOf(const DICOMDataSet& set, DICOMTag tag)
   return found == set.elements.end() ? None : found->second.bytes;
 }
 
+bool continuesLetter(char byte)
+{
+  return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
+}
+
 // Whether a text is UTF-8 without half letters.
 bool isWholeUTF8(const std::string& text)
 {
@@ -29,7 +34,7 @@ bool isWholeUTF8(const std::string& text)
   for (const char letter : text)
   {
     const auto code = static_cast<unsigned char>(letter);
-    const bool follows = (code & 0xc0) == 0x80;
+    const bool follows = continuesLetter(letter);
     if (follows != (rest > 0) || code >= 0xf8)
     {
       return false;
@@ -55,6 +60,22 @@ double daysOf(int year, int month, int day)
   const int monthDays = (153 * marchMonth + 2) / 5;
   return 365.0 * marchYear + leapDays + monthDays + day - 1 - 719468.0;
 }
+}
+
+std::size_t lettersOf(const std::string& text)
+{
+  return text.size() -
+    static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continuesLetter));
+}
+
+std::string firstLettersOf(const std::string& text)
+{
+  std::size_t letters = 0;
+  const auto end = std::find_if(text.begin(), text.end(), [&letters](char byte) {
+    letters += continuesLetter(byte) ? 0 : 1;
+    return letters > LongestText;
+  });
+  return std::string(text.begin(), end);
 }
 
 std::string textOf(const DICOMDataSet& set, DICOMTag tag)
@@ -117,7 +138,7 @@ std::string shownTextOf(const DICOMDataSet& set, DICOMTag tag)
 
 std::string shownTextOf(const DICOMDataSet& set, DICOMTag tag, const std::string& characters)
 {
-  const std::string text = textOf(set, tag).substr(0, LongestShownText);
+  const std::string text = textOf(set, tag);
   const bool isUTF8 = characters == "ISO_IR 192" && isWholeUTF8(text);
   const bool isLatin = characters == "ISO_IR 100";
   std::string shown;
@@ -141,7 +162,7 @@ std::string shownTextOf(const DICOMDataSet& set, DICOMTag tag, const std::string
       shown += '?';
     }
   }
-  return shown;
+  return firstLettersOf(shown);
 }
 
 std::vector<double> decimalsOf(const DICOMDataSet& set, DICOMTag tag)

@@ -8,6 +8,15 @@
 
 namespace brainshift
 {
+/** Letters that a long string (VR LO) may have. */
+constexpr std::size_t LongestText = 64;
+
+/** How many letters a text in UTF-8 has. */
+std::size_t lettersOf(const std::string& text);
+
+/** The first letters of a text in UTF-8, at most LongestText. */
+std::string firstLettersOf(const std::string& text);
+
 /** Text of an attribute, without the blanks at its ends. */
 std::string textOf(const DICOMDataSet& set, DICOMTag tag);
 

@@ -14,11 +14,15 @@
 
 namespace brainshift
 {
-/** What tells images of the same place apart, in the order in which they are sorted. */
+/**
+ * What tells images of the same place apart, in the order in which they are sorted. Triggers that
+ * differ from place to place come last.
+ */
 struct DICOMMoment
 {
   double temporalPosition = 0.0; ///< number of the point in time
   double triggerMs = 0.0;        ///< since the heart's beat
+  bool isTriggerShared = true;   ///< whether images at all places have the same triggers
   double echo = 0.0;             ///< number of the echo
   double bValue = 0.0;           ///< diffusion weighting, s/mm^2
   /// Times of echo and inversion in ms, flip angle in degrees, voltage of the tube in kV.
@@ -32,11 +36,19 @@ struct DICOMMoment
   bool isContentTime = false; ///< `acquiredS` is when the image was made: no other time is there
   double contentS = -1.0;     ///< when the image was made, since 1970; below 0: not known
 
-  std::array<double, 11> sorted() const
+  std::array<double, 12> sorted() const
   {
-    return { this->temporalPosition, this->triggerMs, this->echo, this->bValue, this->settings[0],
+    const double sharedMs = this->isTriggerShared ? this->triggerMs : 0.0;
+    return { this->temporalPosition, sharedMs, this->echo, this->bValue, this->settings[0],
       this->settings[1], this->settings[2], this->settings[3], this->acquiredS, this->referenceS,
-      this->instance };
+      this->instance, this->triggerMs };
+  }
+
+  /** Whether echo, diffusion weighting and settings are those of another image. */
+  bool hasSettingsOf(const DICOMMoment& other) const
+  {
+    return this->echo == other.echo && this->bValue == other.bValue &&
+      this->settings == other.settings;
   }
 };
 

@@ -180,6 +180,12 @@ void readBits(const DICOMFile& file, DICOMBytes& stream, const DICOMTarget& targ
   expandBits(packed, first % 8, count, target.numbers);
 }
 
+bool areRescaled(const std::vector<DICOMTarget>& targets)
+{
+  return std::any_of(targets.begin(), targets.end(),
+    [](const DICOMTarget& target) { return target.frame->rescaling.isNeeded(); });
+}
+
 // Frames whose bytes follow each other go straight to their place.
 void readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
@@ -193,7 +199,9 @@ void readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, i
   const std::uint64_t bytes = count * static_cast<std::uint64_t>(bytesOfPixel(file.pixels));
   const bool areColors = file.pixels.colors != DICOMColors::None;
   const int stored = storedTypeOf(file.pixels);
-  std::vector<char> buffer(type == stored && !areColors ? 0 : bytes);
+  const bool isStraight =
+    type == stored && !areColors && !(type == VTK_FLOAT && areRescaled(targets));
+  std::vector<char> buffer(isStraight ? 0 : bytes);
   for (const DICOMTarget& target : targets)
   {
     if (file.pixels.bitsAllocated == 1)

@@ -31,6 +31,7 @@ struct DICOMPlaces
   std::vector<std::vector<DICOMFrame>> volumes; // of each time; images from below to above
   std::vector<double> times;                    // s; at least one
   std::string noteOfDays;                       // the end of a sentence; may be empty
+  std::string noteOfTriggers;                   // likewise
   std::string noteOfTimes;                      // likewise
   std::vector<std::string> contradictions;      // ends of sentences
   std::size_t copies = 0;                       // images left out: the same image in another file
@@ -189,6 +190,36 @@ std::vector<Images> volumesOf(const std::vector<Images>& places)
   return volumes;
 }
 
+// Whether images of a volume differ in echo, diffusion weighting or another setting.
+bool areSettingsMixed(const std::vector<Images>& volumes)
+{
+  return std::any_of(volumes.begin(), volumes.end(), [](const Images& volume) {
+    return std::any_of(volume.begin(), volume.end(),
+      [&](const DICOMFrame& image) { return !image.moment.hasSettingsOf(volume.front().moment); });
+  });
+}
+
+// Divides the sorted images of each place among volumes. Without triggers, if those would mix
+// diffusion weightings or other settings.
+void divide(std::vector<Images>& places, DICOMPlaces& sorted)
+{
+  sorted.volumes = volumesOf(places);
+  if (sorted.volumes.size() > 1 && areSettingsMixed(sorted.volumes))
+  {
+    const std::string note = leaveTriggers(places);
+    sortByMoment(places);
+    std::vector<Images> volumes = volumesOf(places);
+    if (!areSettingsMixed(volumes))
+    {
+      sorted.noteOfTriggers = note;
+      sorted.volumes = std::move(volumes);
+      return;
+    }
+    sorted.contradictions.emplace_back(
+      "has volumes whose slices differ in echo, diffusion weighting or another setting");
+  }
+}
+
 // Sorts images by place and time. Times come from offsets, the heart's trigger or the acquisition;
 // if they do not grow, from the time between volumes that the header names.
 DICOMPlaces sortedByPlace(
@@ -198,6 +229,7 @@ DICOMPlaces sortedByPlace(
   const Images unique = withoutCopies(files, images, sorted.contradictions);
   std::vector<Images> places = byPlace(unique);
   sorted.noteOfDays = passMidnight(places);
+  sorted.noteOfTriggers = compareTriggers(places);
   sortByMoment(places);
   const double contradictionMm = contradictionOf(places);
   if (contradictionMm > LargestUnreportedContradictionMm)
@@ -208,7 +240,7 @@ DICOMPlaces sortedByPlace(
         contradictionMm, " mm; the position counts"));
   }
   sorted.copies = images.size() - unique.size() + dropTwins(places);
-  sorted.volumes = volumesOf(places);
+  divide(places, sorted);
   sorted.leftOver =
     images.size() - sorted.copies - sorted.volumes.size() * sorted.volumes.front().size();
   sorted.times = timesOf(sorted.volumes, sorted.noteOfTimes);
@@ -518,7 +550,7 @@ DICOMStack stackOf(const std::vector<DICOMFile>& files, const std::vector<DICOMF
     stack.warnings.push_back("has " + counted(places.leftOver, "image", "images") +
       " at positions of other images, too few for another time step: left out");
   }
-  for (const std::string& note : { places.noteOfDays, places.noteOfTimes })
+  for (const std::string& note : { places.noteOfDays, places.noteOfTriggers, places.noteOfTimes })
   {
     if (!note.empty())
     {

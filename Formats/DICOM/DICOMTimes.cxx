@@ -14,6 +14,7 @@ namespace
 {
 constexpr double DayS = 86400.0;
 constexpr double HalfDayS = 0.5 * DayS;
+constexpr double SameTriggerMs = 1.0; // files round them
 
 using Images = std::vector<DICOMFrame>;
 
@@ -43,11 +44,8 @@ bool grows(const std::vector<double>& times)
 bool isSeriesOfTime(const std::vector<Images>& volumes)
 {
   const DICOMMoment& first = volumes.front().front().moment;
-  return std::all_of(volumes.begin(), volumes.end(), [&](const Images& volume) {
-    const DICOMMoment& moment = volume.front().moment;
-    return moment.echo == first.echo && moment.bValue == first.bValue &&
-      moment.settings == first.settings;
-  });
+  return std::all_of(volumes.begin(), volumes.end(),
+    [&](const Images& volume) { return volume.front().moment.hasSettingsOf(first); });
 }
 
 // Whether a setting, such as an echo, is there at several times of the heart or of a series.
@@ -57,8 +55,9 @@ bool hasSettingAtTimes(const std::vector<Images>& volumes)
     const DICOMMoment& a = one.front().moment;
     return std::any_of(volumes.begin(), volumes.end(), [&](const Images& other) {
       const DICOMMoment& b = other.front().moment;
-      return a.echo == b.echo && a.bValue == b.bValue && a.settings == b.settings &&
-        (a.temporalPosition != b.temporalPosition || a.triggerMs != b.triggerMs);
+      return a.hasSettingsOf(b) &&
+        (a.temporalPosition != b.temporalPosition ||
+          (a.isTriggerShared && a.triggerMs != b.triggerMs));
     });
   });
 }
@@ -194,6 +193,66 @@ bool hasContentOrder(const std::vector<Images>& places)
   }
   return least >= 0.0 && most - least < HalfDayS;
 }
+
+// The lowest of triggers that count as the same, in order, ms.
+std::vector<double> differentTriggers(const std::vector<Images>& places)
+{
+  std::vector<double> all;
+  for (const Images& place : places)
+  {
+    for (const DICOMFrame& image : place)
+    {
+      all.push_back(image.moment.triggerMs);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<double> different;
+  for (const double triggerMs : all)
+  {
+    if (different.empty() || triggerMs - different.back() > SameTriggerMs)
+    {
+      different.push_back(triggerMs);
+    }
+  }
+  return different;
+}
+
+// Triggers of each place in order, ms; those that count as the same are equal.
+std::vector<std::vector<double>> triggersOf(
+  const std::vector<Images>& places, const std::vector<double>& different)
+{
+  std::vector<std::vector<double>> triggers;
+  for (const Images& place : places)
+  {
+    std::vector<double>& ofPlace = triggers.emplace_back();
+    for (const DICOMFrame& image : place)
+    {
+      ofPlace.push_back(
+        *std::prev(std::upper_bound(different.begin(), different.end(), image.moment.triggerMs)));
+    }
+    std::sort(ofPlace.begin(), ofPlace.end());
+  }
+  return triggers;
+}
+
+// Whether each volume has triggers later than all of the one before, and the same settings.
+bool areTriggersApart(const std::vector<Images>& volumes)
+{
+  const auto isEarlier = [](const DICOMFrame& a, const DICOMFrame& b) {
+    return a.moment.triggerMs < b.moment.triggerMs;
+  };
+  for (std::size_t i = 1; i < volumes.size(); ++i)
+  {
+    const Images& before = volumes[i - 1];
+    const Images& after = volumes[i];
+    if (!isEarlier(*std::max_element(before.begin(), before.end(), isEarlier),
+          *std::min_element(after.begin(), after.end(), isEarlier)))
+    {
+      return false;
+    }
+  }
+  return isSeriesOfTime(volumes);
+}
 }
 
 std::string passMidnight(std::vector<std::vector<DICOMFrame>>& places)
@@ -244,6 +303,48 @@ std::string passMidnight(std::vector<std::vector<DICOMFrame>>& places)
     "shortest span");
 }
 
+std::string compareTriggers(std::vector<Images>& places)
+{
+  const std::vector<double> different = differentTriggers(places);
+  const std::vector<std::vector<double>> triggers = triggersOf(places, different);
+  // A place may lack some images.
+  const auto most = std::max_element(triggers.begin(), triggers.end(),
+    [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  const bool areShared = std::all_of(triggers.begin(), triggers.end(), [&](const auto& ofPlace) {
+    return std::includes(most->begin(), most->end(), ofPlace.begin(), ofPlace.end());
+  });
+  if (!areShared)
+  {
+    return leaveTriggers(places);
+  }
+  for (Images& place : places)
+  {
+    for (DICOMFrame& image : place)
+    {
+      double& triggerMs = image.moment.triggerMs;
+      triggerMs = *std::prev(std::upper_bound(different.begin(), different.end(), triggerMs));
+    }
+  }
+  return {};
+}
+
+std::string leaveTriggers(std::vector<Images>& places)
+{
+  bool isSeries = false;
+  for (Images& place : places)
+  {
+    isSeries = isSeries || place.size() > 1;
+    for (DICOMFrame& image : place)
+    {
+      image.moment.isTriggerShared = false;
+    }
+  }
+  return isSeries
+    ? "has triggers of the heart (TriggerTime) that differ from slice to slice; images "
+      "of one position are sorted by other attributes"
+    : "";
+}
+
 std::vector<double> timesOf(const std::vector<Images>& volumes, std::string& note)
 {
   std::vector<double> offsets;
@@ -268,8 +369,12 @@ std::vector<double> timesOf(const std::vector<Images>& volumes, std::string& not
   {
     return { 0.0 };
   }
-  if (grows(offsets) || grows(triggers))
+  const bool areTriggersTimes =
+    volumes.front().front().moment.isTriggerShared || areTriggersApart(volumes);
+  if (grows(offsets) || (grows(triggers) && areTriggersTimes))
   {
+    const bool areOfOneSlice = !grows(offsets) && !volumes.front().front().moment.isTriggerShared;
+    note = areOfOneSlice ? "has times that are the triggers of its first slice" : "";
     return grows(offsets) ? offsets : triggers;
   }
   if (!grows(acquired))

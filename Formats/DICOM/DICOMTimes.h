@@ -20,6 +20,18 @@ namespace brainshift
 std::string passMidnight(std::vector<std::vector<DICOMFrame>>& places);
 
 /**
+ * Finds out whether images at all places have the same triggers, to 1 ms, as those of a beating
+ * heart have. Such triggers become equal. Others, of a gated series, do not tell volumes apart.
+ *
+ * @param places images of each position, in any order
+ * @return the end of a sentence that says so, if triggers differ; empty otherwise
+ */
+std::string compareTriggers(std::vector<std::vector<DICOMFrame>>& places);
+
+/** Makes images be sorted without their triggers. Returns the end of a sentence that says so. */
+std::string leaveTriggers(std::vector<std::vector<DICOMFrame>>& places);
+
+/**
  * Times of volumes, s: from offsets, the heart's trigger, the acquisition or the reference time; if
  * none of them grow, from the time between volumes that the header names. At least one.
  *

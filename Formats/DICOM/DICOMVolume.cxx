@@ -420,7 +420,8 @@ void DICOMVolume::decideType(VolumeHeader& header)
   }
   header.unit = first.unit;
   header.smallIsBright = this->Folder.files[first.file].smallIsBright;
-  header.rescaling = isOne ? first.rescaling : Rescaling();
+  // Numbers that are read as float32 are rescaled image by image.
+  header.rescaling = this->StoredType == VTK_FLOAT ? Rescaling() : first.rescaling;
 }
 
 double DICOMVolume::storedBytes(const VolumeHeader& header) const

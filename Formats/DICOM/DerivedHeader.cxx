@@ -3,6 +3,7 @@
 
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMFile.h"
+#include "Formats/DICOM/DICOMSegments.h"
 #include "Formats/Files/PlainFile.h"
 
 #include <algorithm>
@@ -100,9 +101,8 @@ constexpr const char* CTStorage = "1.2.840.10008.5.1.4.1.1.2";
 constexpr const char* MRStorage = "1.2.840.10008.5.1.4.1.1.4";
 constexpr const char* PETStorage = "1.2.840.10008.5.1.4.1.1.128";
 constexpr const char* SecondaryCapture = "1.2.840.10008.5.1.4.1.1.7";
-constexpr std::size_t LongestText = 64; // of VR LO
-constexpr int FirstNumber = 1000;       // added to the number of the source's series
-constexpr int LastNumber = 2000000000;  // VR IS ends at 2147483647
+constexpr int FirstNumber = 1000;      // added to the number of the source's series
+constexpr int LastNumber = 2000000000; // VR IS ends at 2147483647
 
 constexpr DICOMTag Modality = 0x00080060;
 constexpr DICOMTag SeriesDescription = 0x0008103e;
@@ -111,6 +111,7 @@ constexpr DICOMTag StudyUID = 0x0020000d;
 constexpr DICOMTag FrameOfReferenceUID = 0x00200052;
 constexpr DICOMTag ScanningSequence = 0x00180020;
 constexpr DICOMTag SequenceVariant = 0x00180021;
+constexpr DICOMTag Units = 0x00541001;
 
 // What is kept of the source: patient, study, frame of reference, and how the image was taken. All
 // of it is text, which no order of bytes changes. Types are those of the standard's dictionary:
@@ -129,6 +130,7 @@ const std::pair<DICOMTag, const char*> Kept[] = {
   { 0x0020000d, "UI" }, { 0x00200010, "SH" }, { 0x00200052, "UI" }, { 0x00200060, "CS" },
   { 0x00201040, "LO" },                       // study, frame of reference
   { 0x00281050, "DS" }, { 0x00281051, "DS" }, // grey values that are shown
+  { Units, "CS" },                            // of PET
 };
 
 // What must stand there, empty if nobody knows it (type 2 of the standard).
@@ -146,12 +148,14 @@ const std::pair<DICOMTag, const char*> Required[] = {
   { 0x00201040, "LO" },
 };
 
-// Multi-frame images become slices of the same kind.
-std::string storageOf(const std::string& modality)
+// Multi-frame images become slices of the same kind. A PET image must have a unit.
+std::string storageOf(const DICOMDataSet& source)
 {
+  const std::string modality = textOf(source, Modality);
+  const bool isPET = modality == "PT" && !textOf(source, Units).empty();
   return modality == "CT" ? CTStorage
     : modality == "MR"    ? MRStorage
-    : modality == "PT"    ? PETStorage
+    : isPET               ? PETStorage
                           : SecondaryCapture;
 }
 
@@ -212,6 +216,20 @@ void requireKept(const DICOMDataSet& set)
   }
 }
 
+// Structures, reports and presentations are DICOM files of the patient without an image.
+void requireScan(const DICOMContent& content)
+{
+  if (wholeOf(content.set, 0x00280010, 0.0) <= 0.0 ||
+    wholeOf(content.set, 0x00280011, 0.0) <= 0.0 || content.pixelOffset == 0)
+  {
+    throw Problem("is no DICOM image: it lacks Rows, Columns or pixels");
+  }
+  if (segmentKindOf(content.set) != SegmentKind::None)
+  {
+    throw Problem("is no DICOM image of a scanner: it is a segmentation");
+  }
+}
+
 // Throws the end of a sentence, after the name of the file, if it cannot be taken.
 void readImage(const std::string& fileName, DICOMDataSet& source)
 {
@@ -227,8 +245,9 @@ void readImage(const std::string& fileName, DICOMDataSet& source)
     throw Problem("is damaged at byte " + std::to_string(content.end) + " of " +
       std::to_string(bytes.size()) + ": no attribute is there, or its length is wrong");
   }
+  requireKept(content.set);
+  requireScan(content);
   source = std::move(content.set);
-  requireKept(source);
 }
 
 void setNow(DerivedSet& set)
@@ -251,10 +270,10 @@ void setNow(DerivedSet& set)
   }
 }
 
-// How the image was taken, and its grey values.
+// How the image was taken, its grey values and their unit.
 bool isOfScanner(DICOMTag tag)
 {
-  return tag >> 16 == 0x0018 || tag >> 16 == 0x0028;
+  return tag >> 16 == 0x0018 || tag >> 16 == 0x0028 || tag == Units;
 }
 
 template <typename Choice>
@@ -273,11 +292,16 @@ void keep(const DICOMDataSet& source, DerivedSet& set, const Choice& isMeant)
 void setKind(const DICOMDataSet& source, DerivedSet& set)
 {
   const std::string modality = textOf(source, Modality);
-  setText(set, 0x00080016, "UI", storageOf(modality));
+  const std::string storage = storageOf(source);
+  setText(set, 0x00080016, "UI", storage);
   setText(set, 0x00080008, "CS", "DERIVED\\SECONDARY\\OTHER");
   setText(set, 0x00080070, "LO", "BrainShift");
   setText(set, 0x00082111, "ST", std::string("Volume of BrainShift: ") + NotForClinicalUse);
-  if (storageOf(modality) == SecondaryCapture)
+  if (storage != PETStorage)
+  {
+    set.erase(Units);
+  }
+  if (storage == SecondaryCapture)
   {
     setText(set, 0x00080064, "CS", "WSD"); // made at a workstation
   }
@@ -292,7 +316,7 @@ void setPixelFormat(const DerivedPixels& pixels, DerivedSet& set)
 {
   const Grid& grid = pixels.grid;
   setWhole(set, 0x00280002, 1); // samples of a pixel
-  setText(set, 0x00280004, "CS", "MONOCHROME2");
+  setText(set, 0x00280004, "CS", pixels.smallIsBright ? "MONOCHROME1" : "MONOCHROME2");
   setWhole(set, 0x00280010, grid.dimensions.y);
   setWhole(set, 0x00280011, grid.dimensions.x);
   setText(set, 0x00280030, "DS", decimalText(grid.spacing.y) + "\\" + decimalText(grid.spacing.x));

@@ -29,9 +29,9 @@ constexpr const char* NotForClinicalUse = "research, not for clinical use";
 
 /**
  * Reads the attributes of an image of the scanner, without its pixels. Throws one sentence, without
- * a full stop, if there is none.
+ * a full stop, if there is none. A segmentation is none.
  *
- * @param like   a DICOM file, or a folder whose first DICOM file is taken
+ * @param like   a DICOM image, or a folder whose first DICOM image is taken
  */
 void readLike(const std::string& like, DICOMDataSet& source);
 

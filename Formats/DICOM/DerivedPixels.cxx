@@ -110,6 +110,7 @@ void derivedPixels(const OutgoingVolume& volume, DerivedPixels& pixels)
     throw Problem("The input has a number that is not finite, which DICOM cannot hold");
   }
   pixels.grid = withReversedXY(volume.grid);
+  pixels.smallIsBright = volume.smallIsBright;
   turnUpright(pixels);
   chooseRescaling(range, pixels);
 }

@@ -19,9 +19,10 @@ std::string decimalText(double number);
 /** What becomes of a volume. */
 struct DerivedPixels
 {
-  Grid grid;            ///< mm, LPS; its first two axes run to the left, the back or the feet
-  Rescaling rescaling;  ///< value = slope * stored + intercept
-  bool isSigned = true; ///< the 16 bits
+  Grid grid;                  ///< mm, LPS; its first two axes run to the left, the back or the feet
+  Rescaling rescaling;        ///< value = slope * stored + intercept
+  bool isSigned = true;       ///< the 16 bits
+  bool smallIsBright = false; ///< MONOCHROME1
   std::array<bool, 2> reversed{}; ///< whether columns, rows run against the volume's
 };
 

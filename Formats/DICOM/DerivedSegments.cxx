@@ -23,7 +23,6 @@ namespace
 {
 constexpr const char* SegmentationStorage = "1.2.840.10008.5.1.4.1.1.66.4";
 constexpr int HighestLabel = 65535;     // VR US
-constexpr std::size_t LongestText = 64; // of VR LO
 constexpr std::size_t LongestCode = 16; // of VR SH
 constexpr double SamePlaceMm = 0.01;    // of a frame and an image of the scan
 constexpr double SameDirection = 1e-4;  // sine between them
@@ -209,7 +208,7 @@ std::vector<DerivedSet> termOf(const std::string& term)
   const std::vector<std::string> words = partsOf(term, '^');
   const bool isWhole = words.size() == 3 && !words[0].empty() && !words[1].empty() &&
     !words[2].empty() && words[0].size() <= LongestCode && words[1].size() <= LongestCode &&
-    words[2].size() <= LongestText;
+    lettersOf(words[2]) <= LongestText;
   return isWhole ? std::vector<DerivedSet>{ codeOf(words[0], words[1], words[2]) }
                  : std::vector<DerivedSet>();
 }
@@ -230,15 +229,9 @@ void setTerms(const Label& label, DerivedSet& segment)
   setSequence(segment, 0x0062000f, type);
 }
 
-// Whole letters of UTF-8, at most 64 bytes of them.
 std::string shortName(const std::string& name)
 {
-  std::size_t end = std::min(name.size(), LongestText);
-  while (end > 0 && end < name.size() && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80)
-  {
-    --end;
-  }
-  std::string text = name.substr(0, end);
+  std::string text = firstLettersOf(name);
   std::replace_if(
     text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == '\\'; }, ' ');
   return text.empty() ? "Segment" : text;
@@ -562,7 +555,7 @@ void noteNames(const std::map<int, Label>& labels, std::string& warning)
   std::string first;
   for (const auto& [value, label] : labels)
   {
-    const bool isLong = label.name.size() > LongestText;
+    const bool isLong = lettersOf(label.name) > LongestText;
     count += isLong ? 1 : 0;
     first = isLong && first.empty() ? shortName(label.name) : first;
   }
@@ -570,7 +563,7 @@ void noteNames(const std::map<int, Label>& labels, std::string& warning)
   {
     warning += (warning.empty() ? "" : ". ") +
       joined(count, count == 1 ? " name is" : " names are", " longer than the ", LongestText,
-        " bytes of a SegmentLabel and cut, the first to '", first, "'");
+        " letters of a SegmentLabel and cut, the first to '", first, "'");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Volumes/OutgoingVolume.h"
 
+#include "Common/FieldWord.h"
 #include "Common/ImageGrid.h"
 #include "Common/LabelTable.h"
 #include "Formats/Files/Text.h"
@@ -108,6 +109,14 @@ void shorten(vtkDataArray* array, OutgoingVolume& volume, std::string& warning)
   volume.numbers = copyAs(isPositive ? VTK_UNSIGNED_INT : VTK_INT, array);
 }
 
+// What field arrays of our readers say of the scalars: unit, and whether small ones are bright.
+void takeMeaning(vtkImageData* image, OutgoingVolume& volume)
+{
+  volume.unit = fieldWordOf(image, "Unit");
+  vtkDataArray* mark = image->GetFieldData()->GetArray("SmallIsBright");
+  volume.smallIsBright = mark && mark->GetNumberOfValues() == 1 && mark->GetComponent(0, 0) != 0.0;
+}
+
 void takeNumbers(vtkDataArray* array, OutgoingVolume& volume, std::string& warning)
 {
   if (array->GetDataType() == VTK_BIT)
@@ -165,7 +174,12 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   volume.grid = gridOf(image);
   withBeginning("The input's ", [&] { throwIfAny(problemOfGrid(volume.grid)); });
   takeNumbers(array, volume, warning);
-  volume.isLabelMap = array == image->GetPointData()->GetScalars() && isLabelMap(image);
+  const bool areScalars = array == image->GetPointData()->GetScalars();
+  volume.isLabelMap = areScalars && isLabelMap(image);
+  if (areScalars && !volume.isLabelMap)
+  {
+    takeMeaning(image, volume);
+  }
   const WorldAxes axes = world == WorldAxes::Unknown ? worldAxesOf(image) : world;
   volume.knowsSides = axes != WorldAxes::Unknown;
   if (axes == WorldAxes::LPS)

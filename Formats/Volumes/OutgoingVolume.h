@@ -53,10 +53,12 @@ struct NumberType
 /** What a file gets. */
 struct OutgoingVolume
 {
-  Grid grid;               ///< mm, RAS; its direction may be a mirrored rotation
-  bool knowsSides = true;  ///< false: RAS is a guess
-  bool isField = false;    ///< its numbers are displacements
-  bool isLabelMap = false; ///< its numbers are labels
+  Grid grid;                  ///< mm, RAS; its direction may be a mirrored rotation
+  bool knowsSides = true;     ///< false: RAS is a guess
+  bool isField = false;       ///< its numbers are displacements
+  bool isLabelMap = false;    ///< its numbers are labels
+  bool smallIsBright = false; ///< whether stations show small numbers bright
+  std::string unit;           ///< of its numbers; empty: not known
   NumberType type;
   vtkSmartPointer<vtkDataArray> numbers; ///< x fastest, components side by side in memory
 

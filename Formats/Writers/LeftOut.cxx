@@ -8,6 +8,14 @@
 
 namespace brainshift
 {
+namespace
+{
+void addSentence(std::string& warning, const std::string& note)
+{
+  warning += (warning.empty() ? "" : ". ") + note;
+}
+}
+
 void noteLeftOut(const std::string& fileName, vtkImageData* image, vtkInformation* pipeline,
   const OutgoingVolume& volume, std::string& warning)
 {
@@ -32,7 +40,20 @@ void noteLeftOut(const std::string& fileName, vtkImageData* image, vtkInformatio
   }
   for (const std::string& note : notes)
   {
-    warning += (warning.empty() ? "" : ". ") + note;
+    addSentence(warning, note);
+  }
+}
+
+void noteMeaningLeftOut(const OutgoingVolume& volume, bool isSeries, std::string& warning)
+{
+  if (!volume.unit.empty())
+  {
+    addSentence(warning, "The unit of its values, " + volume.unit + ", is left out");
+  }
+  if (volume.smallIsBright && !isSeries)
+  {
+    addSentence(warning,
+      "That small values are bright (MONOCHROME1) is left out; a DICOM series would say it");
   }
 }
 }

@@ -16,6 +16,12 @@ namespace brainshift
  */
 void noteLeftOut(const std::string& fileName, vtkImageData* image, vtkInformation* pipeline,
   const OutgoingVolume& volume, std::string& warning);
+
+/**
+ * Likewise of what its numbers mean: their unit, which no file has, and that small ones are bright,
+ * which a DICOM series says.
+ */
+void noteMeaningLeftOut(const OutgoingVolume& volume, bool isSeries, std::string& warning);
 }
 
 #endif

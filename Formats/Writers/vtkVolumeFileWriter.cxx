@@ -50,16 +50,19 @@ void vtkVolumeFileWriter::WriteImage()
   std::string warning;
   takeOut(image, this->PointArray, static_cast<WorldAxes>(this->World), volume, warning);
   noteLeftOut(this->FileName, image, this->GetInputInformation(0, 0), volume, warning);
+  const bool isSegmentation = isSegmentationName(this->FileName);
+  const bool isSeries = !isSegmentation && (!this->Like.empty() || isSeriesName(this->FileName));
+  noteMeaningLeftOut(volume, isSeries, warning);
   volume.isField = saysField(image);
   const auto progress = [this](double fraction) {
     this->UpdateProgress(fraction);
     return !this->CheckAbort();
   };
-  if (isSegmentationName(this->FileName))
+  if (isSegmentation)
   {
     writeSegments(this->FileName, this->Like, { volume, attachedLabels(image) }, progress, warning);
   }
-  else if (!this->Like.empty() || isSeriesName(this->FileName))
+  else if (isSeries)
   {
     writeSeries(this->FileName, this->Like, volume, progress);
   }

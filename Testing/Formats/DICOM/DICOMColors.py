@@ -241,6 +241,32 @@ def test_parametric_maps_are_real_values_with_units():
     assert unit_of(reader) == "ms"
 
 
+def test_numbers_in_floating_point_are_rescaled_image_by_image():
+    floats = numpy.random.default_rng(1).normal(size=(1, 3, 4, 5)).astype(numpy.float32)
+    slopes, intercepts = numpy.array((1.0, 2.0, 0.5)), numpy.array((0.0, 0.0, 7.0))
+    for count in (1, 3):  # a rescaling of all frames, one of each
+        image = parametric(floats, [mapping("T1", "ms", 2.0, 3.0)], floats=True)
+        right = floats[0] * 2.0 + 3.0
+        if count == 3:
+            for group, slope, intercept in zip(
+                    image.PerFrameFunctionalGroupsSequence, slopes, intercepts):
+                group.RealWorldValueMappingSequence = Sequence(
+                    [mapping("T1", "ms", slope, intercept)])
+            right = floats[0] * slopes[:, None, None] + intercepts[:, None, None]
+        reader, told = read(saved(image))
+        assert not told, told
+        assert_placed(reader, affine_of(), right)
+
+    def change(image, index):  # a file for each image
+        del image.PixelData
+        image.FloatPixelData = floats[0, index].astype("<f4").tobytes()
+        image.BitsAllocated = 32
+        image.RescaleSlope, image.RescaleIntercept = str(slopes[index]), str(intercepts[index])
+
+    path = write_slices(folder("floats"), numbered(3, 4, 5, numpy.uint32), change=change)
+    assert_placed(read(path)[0], affine_of(), right)
+
+
 def test_of_several_mappings_the_first_counts_with_a_word():
     voxels = numpy.arange(60).reshape(1, 3, 4, 5).astype(numpy.uint16)
     image = parametric(voxels, [mapping("ADC", "mm2/s", 1e-6)])

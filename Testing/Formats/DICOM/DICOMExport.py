@@ -10,9 +10,10 @@ import pydicom
 from brainshift_testing import (assert_says, data, load_plugin, messages, output, picture,
                                 run_tests, scratch, show_volume, view_along, volume, voxels)
 from dicom_testing import assert_placed as assert_read
+from dicom_testing import set_pixels
 from pydicom.dataset import FileDataset, FileMetaDataset
 from saving_testing import assert_fails, assert_nothing_left, full_disk
-from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -28,6 +29,7 @@ DIRECTIONS = {"along": numpy.eye(3), "oblique": OBLIQUE,
               "coronal and mirrored": OBLIQUE[:, (0, 2, 1)]}
 SHAPE = (4, 5, 7)
 STORED = {"CT": "1.2.840.10008.5.1.4.1.1.2", "MR": "1.2.840.10008.5.1.4.1.1.4"}
+PET, SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.128", "1.2.840.10008.5.1.4.1.1.7"
 FRAME = "1.2.3.4.5.6"
 NOTICE = "research, not for clinical use"
 
@@ -49,9 +51,35 @@ def like(modality="MR", implicit=False):
     scan.SeriesInstanceUID, scan.SeriesNumber = "1.2.3.4.5", 3
     scan.SeriesDescription = "T1 head"
     scan.FrameOfReferenceUID, scan.Modality = FRAME, modality
+    set_pixels(scan, numpy.zeros((2, 3), numpy.int16))
     name = scratch(f"like-{modality}-{implicit}.dcm")
     scan.save_as(name, write_like_original=False)
     return name
+
+
+def changed_scan(name, change):
+    scan = pydicom.dcmread(like())
+    change(scan)
+    scan.save_as(name, write_like_original=False)
+    return name
+
+
+def without_rows(scan):  # of structures, reports and presentations
+    del scan.Rows, scan.Columns, scan.PixelData
+    scan.Modality = "RTSTRUCT"
+
+
+def without_pixels(scan):
+    del scan.PixelData
+
+
+def segments(scan):
+    scan.SOPClassUID, scan.Modality = "1.2.840.10008.5.1.4.1.1.66.4", "SEG"
+    scan.SegmentationType = "BINARY"
+
+
+NO_IMAGES = {"A1-structures.dcm": without_rows, "A2-empty.dcm": without_pixels,
+             "A3-segments.dcm": segments}
 
 
 def source_of(array, direction=OBLIQUE, world="RAS"):
@@ -239,12 +267,69 @@ def test_save_data_writes_a_folder_and_like_may_be_one():
     os.makedirs(scans)
     with open(os.path.join(scans, "A.txt"), "w", encoding="utf-8") as file:
         file.write("no image")
+    for name, change in NO_IMAGES.items():
+        changed_scan(os.path.join(scans, name), change)
     shutil.copy(like("CT"), os.path.join(scans, "B.dcm"))
     folder = fresh("save_data")
     array = numbers(numpy.int16)
     source = source_of(array)
     SaveData(folder + ".dcm", proxy=source, Like=scans)
-    assert_placed(slices_of(folder), source, array, 0.0, "Save Data")
+    images = slices_of(folder)
+    assert_placed(images, source, array, 0.0, "Save Data")
+    assert images[0].Modality == "CT" and images[0].SOPClassUID == STORED["CT"]
+
+
+def test_like_must_be_an_image_of_a_scanner():
+    folder = fresh("no-image")
+    for name, change in NO_IMAGES.items():
+        scan = changed_scan(scratch(name), change)
+        assert_fails(lambda: brainshift.save_dicom(  # noqa: B023
+            source_of(numbers(numpy.int16)), folder, scan), f"Like is {scan}, which is no DICOM "
+            "image", "segmentation" if "segments" in name else "it lacks Rows, Columns or pixels")
+        assert not os.path.exists(folder)
+
+
+def test_small_numbers_that_are_bright_stay_so():
+    mark = vtkUnsignedCharArray()
+    mark.SetName("SmallIsBright")
+    mark.InsertNextValue(1)
+    array = numbers(numpy.int16)
+    source = source_of(array)
+    output(source).GetFieldData().AddArray(mark)
+    source.MarkModified(source.SMProxy)
+    for one in (source, BakeDeformation(Input=FreeFormDeformation(Input=source))):
+        folder = fresh("bright")
+        with messages() as told:
+            brainshift.save_dicom(one, folder, like())
+        assert not told.text, told.text
+        images = slices_of(folder)
+        assert {image.PhotometricInterpretation for image in images} == {"MONOCHROME1"}
+        assert_placed(images, source, array, 0.0, "MONOCHROME1")
+    with messages() as told:
+        reader = OpenDataFile(folder)
+        reader.UpdatePipeline()
+    assert_says(told.text, "has small numbers that are bright", "MONOCHROME1")
+    assert output(reader).GetFieldData().GetArray("SmallIsBright").GetValue(0) == 1
+
+
+def test_pet_keeps_its_unit():
+    def pet(units):
+        def change(scan):
+            scan.SOPClassUID, scan.Modality = PET, "PT"
+            if units:
+                scan.Units = units
+        return change
+
+    for units, kind in (("BQML", PET), ("", SECONDARY_CAPTURE)):
+        folder = fresh("pet")
+        brainshift.save_dicom(source_of(numbers(numpy.int16)), folder,
+                              changed_scan(scratch("like-pet.dcm"), pet(units)))
+        for image in slices_of(folder):
+            assert image.SOPClassUID == kind and image.Modality == "PT"
+            assert image.get("Units", "") == units
+    brainshift.save_dicom(source_of(numbers(numpy.int16)), fresh("mr"), changed_scan(
+        scratch("like-mr.dcm"), lambda scan: setattr(scan, "Units", "BQML")))
+    assert "Units" not in slices_of(scratch("export-mr"))[0]
 
 
 def test_what_cannot_be_written_says_so_and_leaves_nothing():

@@ -118,6 +118,15 @@ def test_each_segment_is_in_the_first_layer_where_it_hides_none():
     assert_says(told, "layer 1 is shown, without Part 2")
 
 
+def test_names_have_64_letters_however_many_bytes_those_are():
+    image = segmentation([(1, 0, masks(1)[0])], numbers=[1, 2, 3])
+    image.SpecificCharacterSet = "ISO_IR 192"
+    for segment, name in zip(image.SegmentSequence, ("ä" * 60, "€" * 64, "ö" * 70)):
+        segment.SegmentLabel = name
+    reader, _ = read(written(image))
+    assert [name for name, *_ in labels_of(reader).values()] == ["ä" * 60, "€" * 64, "ö" * 64]
+
+
 def test_other_types_and_bits():
     values = numpy.random.default_rng(5).integers(0, 201, (2, 5, 7)).astype(numpy.uint8)
     path = written(segmentation([(1, 0, values[0]), (2, 0, values[1])], "FRACTIONAL"))

@@ -231,11 +231,12 @@ def test_other_numbers_are_said():
 def test_names_that_are_cut_are_said():
     like = scan()
     labels = random_labels(image_shape(like), 2)
-    name = "a" * 63 + "ä and more"
-    path, told = saved(labelled(like, labels, [(1, name), (2, "short")]), like)
-    assert_says(told, "1 name is longer than the 64 bytes of a SegmentLabel and cut", "a" * 63)
+    names = "a" * 63 + "ä and more", "ö" * 64
+    path, told = saved(labelled(like, labels, [(1, names[0]), (2, names[1])]), like)
+    assert_says(told, "1 name is longer than the 64 letters of a SegmentLabel and cut",
+                "a" * 63 + "ä'")
     assert [item.SegmentLabel for item in pydicom.dcmread(path).SegmentSequence] == [
-        "a" * 63, "short"]
+        "a" * 63 + "ä", "ö" * 64]
 
 
 def test_characters_that_are_not_known_become_question_marks():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that series that go over midnight keep their order and times, with or without a date, that
-# PET takes the times of its frames, and that slices that are parted from their volume are said.
+# PET takes the times of its frames, that triggers which differ from slice to slice mix no volumes,
+# and that slices that are parted from their volume are said.
 import numpy
 from brainshift_testing import assert_says, load_plugin, messages, output, run_tests
 from dicom_testing import SAGITTAL, enhanced, folder, numbered, scalars, write_slices
@@ -35,8 +36,8 @@ def assert_times(reader, right):
     for t, time in enumerate(right):
         reader.UpdatePipeline(time)
         image = reader.GetClientSideObject().GetOutputDataObject(0)
-        least = image.GetPointData().GetScalars().GetRange()[0]
-        assert least == 1000 * t, (t, least)
+        least, most = image.GetPointData().GetScalars().GetRange()
+        assert least == 1000 * t and most < 1000 * (t + 1), (t, least, most)
 
 
 def test_a_day_passes_where_another_attribute_shows_the_order():
@@ -138,6 +139,49 @@ def test_frames_of_pet_have_the_times_of_their_reference():
         reader, told = read(series(change, times=2))
         assert not told, told
         assert_times(reader, (0, 60))
+
+
+def gated(triggers, weights):
+    """The reader of a gated series, and what it told. triggers [slice][volume], ms."""
+    def change(image, t, index):
+        image.TriggerTime, image.DiffusionBValue = str(triggers[index][t]), weights[t]
+
+    return read(series(change, len(weights), len(triggers)))
+
+
+def test_triggers_that_differ_from_slice_to_slice_mix_no_volumes():
+    for triggers, weights in ((((900, 850), (860, 910)), (0.0, 1000.0)),
+                              (((900, 850), (850, 900)), (0.0, 1000.0)),
+                              # two directions of one weighting
+                              (((900, 870, 850), (860, 880, 910)), (0.0, 1000.0, 1000.0)),
+                              (((900, 850), (860, 910)), (0.0, 0.0))):
+        reader, told = gated(triggers, weights)
+        assert_says(told, "has triggers of the heart (TriggerTime) that differ from slice to "
+                    "slice; images of one position are sorted by other attributes")
+        assert_times(reader, range(len(weights)))
+
+
+def test_triggers_of_a_beating_heart_are_times():
+    def turned(image, t, index):  # not in the order of their numbers
+        image.TriggerTime, image.InstanceNumber = str(40.0 * t + 0.3 * index), 10 - 3 * t + index
+
+    reader, told = read(series(turned))
+    assert not told, told
+    assert_times(reader, (0.0, 0.04, 0.08, 0.12))
+    # Another heart rate in the second slice.
+    reader, told = gated(((0, 40, 80), (0, 45, 90)), (0.0, 0.0, 0.0))
+    assert_says(told, "differ from slice to slice",
+                "times that are the triggers of its first slice")
+    assert_times(reader, (0.0, 0.04, 0.08))
+
+
+def test_slices_of_other_settings_in_a_volume_are_said():
+    def change(image, t, index):
+        image.DiffusionBValue = 1000.0 * t * index
+
+    _, told = read(series(change, 2, 2))
+    assert_says(told, "has volumes whose slices differ in echo, diffusion weighting or another "
+                "setting")
 
 
 def parted(change):

@@ -14,7 +14,7 @@ import numpy
 import pydicom
 from brainshift_testing import ball, data, volume
 from dicom_cases import SYNTAXES, spoiled
-from dicom_testing import MR, plain_header
+from dicom_testing import MR, plain_header, set_pixels
 from scene import array_of
 
 #: Attributes that a series takes from the file, one of each type.
@@ -26,7 +26,7 @@ MADE = ("FrameOfReferenceUID", "ScanningSequence")  # where the file has none
 
 
 def _scan(name, syntax):
-    """A file of a scan without pixels: no reader of attributes goes on to them."""
+    """A file of a scan with few pixels: no reader of attributes goes on to them."""
     image = plain_header(MR, pydicom.uid.UID(syntax))
     image.SpecificCharacterSet = "ISO_IR 192"
     image.PatientName, image.PatientID, image.PatientAge = "Müller^Anna", "4711", "054Y"
@@ -36,6 +36,7 @@ def _scan(name, syntax):
     image.ReferencedStudySequence = [pydicom.Dataset()]
     image.ReferencedStudySequence[0].ReferencedSOPInstanceUID = "1.2.3.7"
     image.private_block(0x0029, "MAKER", create=True).add_new(1, "OB", b"\1\2\3\4")
+    set_pixels(image, numpy.zeros((2, 2), numpy.int16))
     image.save_as(name, write_like_original=False)
 
 

@@ -10,7 +10,7 @@ from brainshift_testing import (assert_says, ball, load_plugin, messages, output
                                 scratch, volume, voxels)
 from saving_testing import assert_fails, assert_nothing_left, full_disk
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -291,6 +291,23 @@ def test_what_the_file_does_not_hold_is_said():
             if is_nifti:
                 intent = nibabel.load(name).header["intent_code"]
                 assert intent == (0 if source is reader else 1002), (name, intent)
+
+
+def test_what_numbers_mean_is_said_if_it_is_left_out():
+    source = source_of(numbers(numpy.int16))
+    unit, mark = vtkStringArray(), vtkUnsignedCharArray()
+    unit.SetName("Unit")
+    unit.InsertNextValue("mm2/s")
+    mark.SetName("SmallIsBright")
+    mark.InsertNextValue(1)
+    for array in (unit, mark):
+        output(source).GetFieldData().AddArray(array)
+    source.MarkModified(source.SMProxy)
+    for ending in FORMATS:
+        with messages() as said:
+            brainshift.save_volume(source, scratch("meaning" + ending))
+        assert_says(said.text, "The unit of its values, mm2/s, is left out. That small values are "
+                    "bright (MONOCHROME1) is left out; a DICOM series would say it")
 
 
 def test_long_numbers_are_shortened_or_refused():
