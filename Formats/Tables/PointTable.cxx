@@ -37,6 +37,13 @@ constexpr std::array<std::pair<const char*, double Landmark::*>, 3> NumberColumn
   { "deviation", &Landmark::deviation },
 } };
 
+// What the name of a column says of the unit of its numbers, such as ms; empty: nothing.
+struct NamedUnit
+{
+  std::string name; // of the column, in small letters
+  std::string unit;
+};
+
 // Where the columns are. One that the table lacks is beyond its end.
 struct Columns
 {
@@ -50,8 +57,14 @@ struct Columns
   std::size_t frame = 0;
   std::string unitName;
   std::string frameName;
+  NamedUnit timeUnit;
+  NamedUnit deviationUnit;
+  std::optional<double> deviationMm; // of its own unit
   std::size_t count = 0;
 };
+
+constexpr const char* UnitEnds[] = { "_mm", "_cm", "_m", "_um", "_inch", "_s", "_sec", "_ms", "_us",
+  "_min" };
 
 // A column's name without capitals and without its unit: "Time (ms)" and "time_ms" are time.
 std::string nameOf(const std::string& written)
@@ -59,7 +72,7 @@ std::string nameOf(const std::string& written)
   std::string name = lowerCase(trimmed(written));
   const std::size_t bracket = name.find_first_of("([");
   name = bracket == std::string::npos || bracket == 0 ? name : trimmed(name.substr(0, bracket));
-  for (const char* unit : { "_mm", "_cm", "_m", "_um", "_s", "_sec", "_ms", "_us", "_min" })
+  for (const char* unit : UnitEnds)
   {
     if (endsWith(name, unit))
     {
@@ -67,6 +80,24 @@ std::string nameOf(const std::string& written)
     }
   }
   return name;
+}
+
+// The unit that nameOf leaves out.
+NamedUnit unitOf(const std::string& written)
+{
+  NamedUnit found{ lowerCase(trimmed(written)), "" };
+  const std::size_t bracket = found.name.find_first_of("([");
+  if (bracket != std::string::npos)
+  {
+    const std::string rest = found.name.substr(bracket + 1);
+    found.unit = trimmed(rest.substr(0, rest.find_first_of(")]")));
+    return found;
+  }
+  for (const std::string unit : UnitEnds)
+  {
+    found.unit = endsWith(found.name, unit) ? unit.substr(1) : found.unit;
+  }
+  return found;
 }
 
 std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
@@ -102,6 +133,9 @@ std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
   columns.frame = placeBy(saysFrame);
   columns.unitName = columns.unit < header.size() ? header[columns.unit] : "";
   columns.frameName = columns.frame < header.size() ? header[columns.frame] : "";
+  columns.timeUnit = columns.time < header.size() ? unitOf(header[columns.time]) : NamedUnit();
+  columns.deviationUnit =
+    columns.deviation < header.size() ? unitOf(header[columns.deviation]) : NamedUnit();
   return columns;
 }
 
@@ -293,6 +327,38 @@ glm::dvec3 placed(const glm::dvec3& written, const PointColumns& columns,
   return inAxes(axes, position);
 }
 
+// What the name of the column of deviations says of their unit. Without one they have that of the
+// positions, from which they are.
+std::optional<double> unitOfDeviations(const Columns& columns, LandmarkList& list)
+{
+  const NamedUnit& own = columns.deviationUnit;
+  if (!own.unit.empty())
+  {
+    LandmarkList unused; // its note is on positions
+    const std::optional<double> mm = lengthUnder("unit", own.unit, unused);
+    if (!mm)
+    {
+      list.notes.push_back("has the column " + shownWords(own.name) +
+        ", whose unit is no length; its deviations count in that of the positions");
+    }
+    return mm;
+  }
+  const auto& mm = columns.position.mm;
+  const bool isOfSeveral = !(mm[0] == mm[1] && mm[1] == mm[2]);
+  throwIfAny(isOfSeveral && !own.name.empty()
+      ? "has a column deviation without a unit, and its positions have several; name it with its "
+        "own, such as deviation_mm"
+      : "");
+  return std::nullopt;
+}
+
+// Millimetres in the unit of the deviation of a record.
+double mmOfDeviation(const Columns& columns, const SaidOfPositions& said, const TableRule& rule)
+{
+  const SaidOfPositions position = agreed({ std::nullopt, columns.position.mm[0] }, said);
+  return columns.deviationMm.value_or(position.mm.value_or(rule.mm));
+}
+
 // Whether words of columns say no more than which of two positions of a landmark they have. Who
 // chose the columns knows that.
 bool sayWhichPosition(const std::string& words)
@@ -337,6 +403,8 @@ Columns requiredColumns(
       shownWords(names) + "; name three of its columns (Position Columns)");
   }
   notePosition(columns->position, list);
+  columns->deviationMm = unitOfDeviations(*columns, list);
+  list.timeUnit = columns->timeUnit.unit;
   findNames(text, separator, *columns, list);
   return *columns;
 }
@@ -361,6 +429,7 @@ void readPointTable(const std::string& text, const LandmarkChoice& choice, Landm
       hasPlace = readPoint(values, columns, point);
       const SaidOfPositions said = agreed(comments, saidByRecord(values, columns, list));
       point.position = placed(point.position, columns.position, said, rule);
+      point.deviation *= mmOfDeviation(columns, said, rule);
     });
     skipped += hasPlace ? 0 : 1;
     if (hasPlace)
@@ -380,7 +449,15 @@ bool looksLikePointTable(const std::string& beginning)
   return isFound || !problem.empty(); // several positions are some
 }
 
-// Columns are called r, a, s or l, p, s.
+// How a column of times is called, in a unit as the table says it that was read.
+std::string nameOfTimes(const std::string& unit)
+{
+  const bool isEnd = std::any_of(std::begin(UnitEnds), std::end(UnitEnds),
+    [&](const std::string& end) { return end.substr(1) == unit; });
+  return "time" + (unit.empty() ? "" : isEnd ? "_" + unit : " (" + unit + ")");
+}
+
+// Columns are called r, a, s or l, p, s. Deviations are in mm, as positions are.
 template <char separator>
 void writePointTable(std::ostream& file, FileAxes axes, LandmarkList& list)
 {
@@ -396,7 +473,9 @@ void writePointTable(std::ostream& file, FileAxes axes, LandmarkList& list)
                              const Landmark& point) { return !std::isnan(point.*member); };
     if (std::any_of(list.points.begin(), list.points.end(), hasNumber))
     {
-      file << separator << name;
+      file << separator
+           << (number == &Landmark::time ? recordValue(nameOfTimes(list.timeUnit), separator)
+                                         : std::string(name));
       written.push_back(number);
     }
   }
