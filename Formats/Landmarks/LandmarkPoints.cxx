@@ -101,7 +101,14 @@ void setLandmarks(vtkPolyData* points, const LandmarkList& list)
 LandmarkList landmarksOf(vtkPointSet* points)
 {
   LandmarkList list;
-  const FileAxes axes = worldAxesOf(points) == WorldAxes::LPS ? FileAxes::LPS : FileAxes::RAS;
+  const WorldAxes known = worldAxesOf(points);
+  const FileAxes axes = known == WorldAxes::LPS ? FileAxes::LPS : FileAxes::RAS;
+  // The file will name axes that nothing says. Points that the user made, which are of no patient,
+  // cannot be told from those of a volume without sides, so both get the note, once, on saving.
+  if (known == WorldAxes::Unknown)
+  {
+    list.notes.emplace_back("is of points whose world axes are not known; they count as RAS");
+  }
   list.points.resize(static_cast<std::size_t>(points->GetNumberOfPoints()));
   vtkPointData* arrays = points->GetPointData();
   vtkAbstractArray* labels = arrays->GetAbstractArray(LabelName);
