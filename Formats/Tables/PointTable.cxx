@@ -3,7 +3,8 @@
 /// Tables of points (.csv, .tsv) whose first line names the columns. README.md lists their names.
 ///
 /// Separators are commas, semicolons or tabs. Lines before the names that begin with # are
-/// comments. The value n/a is an empty one. Slicer's tables of markups are such tables.
+/// comments; above a table that begins with numbers the last of them has the names. The value n/a
+/// is an empty one. Slicer's tables of markups are such tables.
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
@@ -139,35 +140,67 @@ std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
   return columns;
 }
 
+// The names of a table's columns.
+struct Header
+{
+  Values names;
+  bool isComment = false; // then the first line that is none is a point
+};
+
+bool areNumbers(const Values& values)
+{
+  return std::all_of(values.begin(), values.end(),
+    [](const std::string& value) { return numberIn(trimmed(value)).has_value(); });
+}
+
+// The first line that is no comment. If it has only numbers, the comment before it has the names,
+// as numpy.savetxt writes them, if it has as many.
+Header headerIn(const std::string& text, char separator)
+{
+  RecordReader records(text, separator);
+  Values values;
+  Values comment;
+  while (records.next(values))
+  {
+    if (isComment(values))
+    {
+      comment = values;
+      continue;
+    }
+    if (comment.size() != values.size() || !areNumbers(values))
+    {
+      return { values };
+    }
+    comment[0] = trimmed(comment[0]);
+    comment[0].erase(0, comment[0].find_first_not_of('#'));
+    return { comment, true };
+  }
+  return {};
+}
+
+Values headerOf(const std::string& text, char separator)
+{
+  return headerIn(text, separator).names;
+}
+
 // Calls visit(values, "line 12") for each record below the names of columns that is no comment.
 template <typename Visit>
 void forEachPoint(const std::string& text, char separator, const Visit& visit)
 {
+  const bool isFirstAPoint = headerIn(text, separator).isComment;
   RecordReader records(text, separator);
   Values values;
   bool isBelow = false;
   while (records.next(values))
   {
-    if (isBelow && !(isComment(values) && values.size() == 1))
+    const bool isOther = isBelow && !(isComment(values) && values.size() == 1);
+    if (isOther || (!isBelow && isFirstAPoint && !isComment(values)))
     {
       visit(values, "line " + std::to_string(records.line()));
     }
     isBelow = isBelow || !isComment(values);
   }
   throwIfAny(records.endedInQuotes() ? "ends inside quotes" : "");
-}
-
-// The first line that is no comment.
-Values headerOf(const std::string& text, char separator)
-{
-  RecordReader records(text, separator);
-  Values header;
-  bool isFound = records.next(header);
-  while (isFound && isComment(header))
-  {
-    isFound = records.next(header);
-  }
-  return isFound ? header : Values();
 }
 
 // The columns between one of the separators. Wanted names must be between the one that the header

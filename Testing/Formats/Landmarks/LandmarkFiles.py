@@ -154,6 +154,25 @@ def test_tables():
     assert brainshift.read_points(ras, table_axes="LPS").positions.tolist() == [[1, 2, 3]]
 
 
+def test_names_in_the_comment_above_a_table_of_numbers():
+    """numpy writes its header as a comment. The first line of numbers is a point, too."""
+    for names, separator, right in (("x,y,z", ",", PLACES), ("x_cm;y_cm;z_cm", ";", 10 * PLACES),
+                                    ("l\tp\ts", "\t", PLACES * LPS),
+                                    ("made by hand\nx,y,z", ",", PLACES)):
+        name = scratch("numpy.csv")
+        numpy.savetxt(name, PLACES, header=names, delimiter=separator)
+        with messages() as said:
+            found = brainshift.read_points(name).positions
+        assert not said.text and numpy.allclose(found, right, rtol=0, atol=1e-12), (names, found)
+    numpy.savetxt(name, PLACES, header="i,j,k", delimiter=",")
+    found = brainshift.read_points(name, columns=["i", "j", "k"])
+    assert numpy.array_equal(found.positions, PLACES)
+    assert "it names 1.5" in refusal("numpy.csv", "# made by hand\n1.5,2,3\n4,5,6\n")
+    # A comment above a line of names stays one.
+    found = brainshift.read_points(written("numpy.csv", "# z,y,x\nx,y,z\n1,2,3\n"))
+    assert found.positions.tolist() == [[1, 2, 3]]
+
+
 def test_deviations_have_their_own_unit_or_that_of_the_positions():
     """A deviation of 0.2 cm is one of 2 mm, in memory and in the file that is written."""
     for names, mm, words in (
@@ -282,7 +301,8 @@ def walked_fiducials_and_tags():
 
 def walked_tables():
     """Each list of names, and where the position 1 2 3 of such columns lies."""
-    seen = {"columns table", "several table", "n/a table", "time table", "deviation table"}
+    seen = {"columns table", "several table", "n/a table", "time table", "deviation table",
+            "# x,y,z table"}
     for entry, names, right in (
             ("x y z", "x,y,z", (1, 2, 3)), ("x y z", " X , Y [mm], z(mm)", (1, 2, 3)),
             ("r a s", "R,A,S", (1, 2, 3)), ("r a s", "right,anterior,superior", (1, 2, 3)),
