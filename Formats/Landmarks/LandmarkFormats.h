@@ -27,14 +27,15 @@ struct Landmark
   glm::dvec3 position{ 0.0 };                                  ///< mm, RAS
   std::string label;                                           ///< UTF-8; empty: none
   double number = std::numeric_limits<double>::quiet_NaN();    ///< place in the file, from 1 on
-  double time = std::numeric_limits<double>::quiet_NaN();      ///< in the unit of the file
-  double deviation = std::numeric_limits<double>::quiet_NaN(); ///< in the unit of the file
+  double time = std::numeric_limits<double>::quiet_NaN();      ///< in the list's timeUnit
+  double deviation = std::numeric_limits<double>::quiet_NaN(); ///< mm
 };
 
 /** What a file holds. */
 struct LandmarkList
 {
   std::vector<Landmark> points;
+  std::string timeUnit; ///< of their times, as the file says it, such as ms; empty: not said
   std::vector<std::string> notes; ///< what was left out: ends of sentences, after the file's name
 };
 

@@ -6,6 +6,7 @@
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -23,11 +24,12 @@ namespace brainshift
 namespace
 {
 constexpr const char* LabelName = "Label";
+constexpr const char* TimeName = "Time";
 
 using NumberMember = std::pair<const char*, double Landmark::*>;
 constexpr std::array<NumberMember, 3> Numbers{ {
   { "Number", &Landmark::number },
-  { "Time", &Landmark::time },
+  { TimeName, &Landmark::time },
   { "Deviation", &Landmark::deviation },
 } };
 
@@ -88,16 +90,33 @@ void setLandmarks(vtkPolyData* points, const LandmarkList& list)
   {
     addNumbers(points, list, member);
   }
+  vtkDataArray* times = points->GetPointData()->GetArray(TimeName);
+  if (times && !list.timeUnit.empty()) // the array keeps it through filters
+  {
+    times->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), list.timeUnit.c_str());
+  }
   nameWorldAxes(points, WorldAxes::RAS);
 }
 
 LandmarkList landmarksOf(vtkPointSet* points)
 {
   LandmarkList list;
-  const FileAxes axes = worldAxesOf(points) == WorldAxes::LPS ? FileAxes::LPS : FileAxes::RAS;
+  const WorldAxes known = worldAxesOf(points);
+  const FileAxes axes = known == WorldAxes::LPS ? FileAxes::LPS : FileAxes::RAS;
+  // The file will name axes that nothing says. Points that the user made, which are of no patient,
+  // cannot be told from those of a volume without sides, so both get the note, once, on saving.
+  if (known == WorldAxes::Unknown)
+  {
+    list.notes.emplace_back("is of points whose world axes are not known; they count as RAS");
+  }
   list.points.resize(static_cast<std::size_t>(points->GetNumberOfPoints()));
   vtkPointData* arrays = points->GetPointData();
   vtkAbstractArray* labels = arrays->GetAbstractArray(LabelName);
+  vtkDataArray* times = arrays->GetArray(TimeName);
+  if (times && times->HasInformation() && times->GetInformation()->Has(vtkDataArray::UNITS_LABEL()))
+  {
+    list.timeUnit = times->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+  }
   for (std::size_t i = 0; i < list.points.size(); ++i)
   {
     const auto id = static_cast<vtkIdType>(i);

@@ -5,10 +5,11 @@
  *
  * LandmarkFile.h lists the formats. Output: vertices (double precision, mm, RAS) with those of
  * these point arrays for which the file says something: Label (string, UTF-8), Number (place in the
- * file, from 1 on; of a table its column), Time and Deviation (double, in the unit of the file, NaN
- * where it says none). The field array WorldAxes says RAS. Trace Distance and Deform Geometry take
- * it as it is. Points without a position are left out with a warning. On several processes the
- * first one has all points. After an error the output is empty.
+ * file, from 1 on; of a table its column), Time (in the unit of the file, which the array names)
+ * and Deviation (mm). Numbers are double, and NaN where the file says none. The field array
+ * WorldAxes says RAS. Trace Distance and Deform Geometry take it as it is. Points without a
+ * position are left out with a warning. On several processes the first one has all points. After
+ * an error the output is empty.
  */
 #ifndef vtkLandmarkReader_h
 #define vtkLandmarkReader_h

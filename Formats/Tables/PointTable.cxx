@@ -3,7 +3,8 @@
 /// Tables of points (.csv, .tsv) whose first line names the columns. README.md lists their names.
 ///
 /// Separators are commas, semicolons or tabs. Lines before the names that begin with # are
-/// comments. The value n/a is an empty one. Slicer's tables of markups are such tables.
+/// comments; above a table that begins with numbers the last of them has the names. The value n/a
+/// is an empty one. Slicer's tables of markups are such tables.
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
@@ -37,6 +38,13 @@ constexpr std::array<std::pair<const char*, double Landmark::*>, 3> NumberColumn
   { "deviation", &Landmark::deviation },
 } };
 
+// What the name of a column says of the unit of its numbers, such as ms; empty: nothing.
+struct NamedUnit
+{
+  std::string name; // of the column, in small letters
+  std::string unit;
+};
+
 // Where the columns are. One that the table lacks is beyond its end.
 struct Columns
 {
@@ -50,8 +58,14 @@ struct Columns
   std::size_t frame = 0;
   std::string unitName;
   std::string frameName;
+  NamedUnit timeUnit;
+  NamedUnit deviationUnit;
+  std::optional<double> deviationMm; // of its own unit
   std::size_t count = 0;
 };
+
+constexpr const char* UnitEnds[] = { "_mm", "_cm", "_m", "_um", "_inch", "_s", "_sec", "_ms", "_us",
+  "_min" };
 
 // A column's name without capitals and without its unit: "Time (ms)" and "time_ms" are time.
 std::string nameOf(const std::string& written)
@@ -59,7 +73,7 @@ std::string nameOf(const std::string& written)
   std::string name = lowerCase(trimmed(written));
   const std::size_t bracket = name.find_first_of("([");
   name = bracket == std::string::npos || bracket == 0 ? name : trimmed(name.substr(0, bracket));
-  for (const char* unit : { "_mm", "_cm", "_m", "_um", "_s", "_sec", "_ms", "_us", "_min" })
+  for (const char* unit : UnitEnds)
   {
     if (endsWith(name, unit))
     {
@@ -67,6 +81,24 @@ std::string nameOf(const std::string& written)
     }
   }
   return name;
+}
+
+// The unit that nameOf leaves out.
+NamedUnit unitOf(const std::string& written)
+{
+  NamedUnit found{ lowerCase(trimmed(written)), "" };
+  const std::size_t bracket = found.name.find_first_of("([");
+  if (bracket != std::string::npos)
+  {
+    const std::string rest = found.name.substr(bracket + 1);
+    found.unit = trimmed(rest.substr(0, rest.find_first_of(")]")));
+    return found;
+  }
+  for (const std::string unit : UnitEnds)
+  {
+    found.unit = endsWith(found.name, unit) ? unit.substr(1) : found.unit;
+  }
+  return found;
 }
 
 std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
@@ -102,38 +134,73 @@ std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
   columns.frame = placeBy(saysFrame);
   columns.unitName = columns.unit < header.size() ? header[columns.unit] : "";
   columns.frameName = columns.frame < header.size() ? header[columns.frame] : "";
+  columns.timeUnit = columns.time < header.size() ? unitOf(header[columns.time]) : NamedUnit();
+  columns.deviationUnit =
+    columns.deviation < header.size() ? unitOf(header[columns.deviation]) : NamedUnit();
   return columns;
+}
+
+// The names of a table's columns.
+struct Header
+{
+  Values names;
+  bool isComment = false; // then the first line that is none is a point
+};
+
+bool areNumbers(const Values& values)
+{
+  return std::all_of(values.begin(), values.end(),
+    [](const std::string& value) { return numberIn(trimmed(value)).has_value(); });
+}
+
+// The first line that is no comment. If it has only numbers, the comment before it has the names,
+// as numpy.savetxt writes them, if it has as many.
+Header headerIn(const std::string& text, char separator)
+{
+  RecordReader records(text, separator);
+  Values values;
+  Values comment;
+  while (records.next(values))
+  {
+    if (isComment(values))
+    {
+      comment = values;
+      continue;
+    }
+    if (comment.size() != values.size() || !areNumbers(values))
+    {
+      return { values };
+    }
+    comment[0] = trimmed(comment[0]);
+    comment[0].erase(0, comment[0].find_first_not_of('#'));
+    return { comment, true };
+  }
+  return {};
+}
+
+Values headerOf(const std::string& text, char separator)
+{
+  return headerIn(text, separator).names;
 }
 
 // Calls visit(values, "line 12") for each record below the names of columns that is no comment.
 template <typename Visit>
 void forEachPoint(const std::string& text, char separator, const Visit& visit)
 {
+  const bool isFirstAPoint = headerIn(text, separator).isComment;
   RecordReader records(text, separator);
   Values values;
   bool isBelow = false;
   while (records.next(values))
   {
-    if (isBelow && !(isComment(values) && values.size() == 1))
+    const bool isOther = isBelow && !(isComment(values) && values.size() == 1);
+    if (isOther || (!isBelow && isFirstAPoint && !isComment(values)))
     {
       visit(values, "line " + std::to_string(records.line()));
     }
     isBelow = isBelow || !isComment(values);
   }
   throwIfAny(records.endedInQuotes() ? "ends inside quotes" : "");
-}
-
-// The first line that is no comment.
-Values headerOf(const std::string& text, char separator)
-{
-  RecordReader records(text, separator);
-  Values header;
-  bool isFound = records.next(header);
-  while (isFound && isComment(header))
-  {
-    isFound = records.next(header);
-  }
-  return isFound ? header : Values();
 }
 
 // The columns between one of the separators. Wanted names must be between the one that the header
@@ -293,6 +360,38 @@ glm::dvec3 placed(const glm::dvec3& written, const PointColumns& columns,
   return inAxes(axes, position);
 }
 
+// What the name of the column of deviations says of their unit. Without one they have that of the
+// positions, from which they are.
+std::optional<double> unitOfDeviations(const Columns& columns, LandmarkList& list)
+{
+  const NamedUnit& own = columns.deviationUnit;
+  if (!own.unit.empty())
+  {
+    LandmarkList unused; // its note is on positions
+    const std::optional<double> mm = lengthUnder("unit", own.unit, unused);
+    if (!mm)
+    {
+      list.notes.push_back("has the column " + shownWords(own.name) +
+        ", whose unit is no length; its deviations count in that of the positions");
+    }
+    return mm;
+  }
+  const auto& mm = columns.position.mm;
+  const bool isOfSeveral = !(mm[0] == mm[1] && mm[1] == mm[2]);
+  throwIfAny(isOfSeveral && !own.name.empty()
+      ? "has a column deviation without a unit, and its positions have several; name it with its "
+        "own, such as deviation_mm"
+      : "");
+  return std::nullopt;
+}
+
+// Millimetres in the unit of the deviation of a record.
+double mmOfDeviation(const Columns& columns, const SaidOfPositions& said, const TableRule& rule)
+{
+  const SaidOfPositions position = agreed({ std::nullopt, columns.position.mm[0] }, said);
+  return columns.deviationMm.value_or(position.mm.value_or(rule.mm));
+}
+
 // Whether words of columns say no more than which of two positions of a landmark they have. Who
 // chose the columns knows that.
 bool sayWhichPosition(const std::string& words)
@@ -337,6 +436,8 @@ Columns requiredColumns(
       shownWords(names) + "; name three of its columns (Position Columns)");
   }
   notePosition(columns->position, list);
+  columns->deviationMm = unitOfDeviations(*columns, list);
+  list.timeUnit = columns->timeUnit.unit;
   findNames(text, separator, *columns, list);
   return *columns;
 }
@@ -361,6 +462,7 @@ void readPointTable(const std::string& text, const LandmarkChoice& choice, Landm
       hasPlace = readPoint(values, columns, point);
       const SaidOfPositions said = agreed(comments, saidByRecord(values, columns, list));
       point.position = placed(point.position, columns.position, said, rule);
+      point.deviation *= mmOfDeviation(columns, said, rule);
     });
     skipped += hasPlace ? 0 : 1;
     if (hasPlace)
@@ -380,7 +482,15 @@ bool looksLikePointTable(const std::string& beginning)
   return isFound || !problem.empty(); // several positions are some
 }
 
-// Columns are called r, a, s or l, p, s.
+// How a column of times is called, in a unit as the table says it that was read.
+std::string nameOfTimes(const std::string& unit)
+{
+  const bool isEnd = std::any_of(std::begin(UnitEnds), std::end(UnitEnds),
+    [&](const std::string& end) { return end.substr(1) == unit; });
+  return "time" + (unit.empty() ? "" : isEnd ? "_" + unit : " (" + unit + ")");
+}
+
+// Columns are called r, a, s or l, p, s. Deviations are in mm, as positions are.
 template <char separator>
 void writePointTable(std::ostream& file, FileAxes axes, LandmarkList& list)
 {
@@ -396,7 +506,9 @@ void writePointTable(std::ostream& file, FileAxes axes, LandmarkList& list)
                              const Landmark& point) { return !std::isnan(point.*member); };
     if (std::any_of(list.points.begin(), list.points.end(), hasNumber))
     {
-      file << separator << name;
+      file << separator
+           << (number == &Landmark::time ? recordValue(nameOfTimes(list.timeUnit), separator)
+                                         : std::string(name));
       written.push_back(number);
     }
   }

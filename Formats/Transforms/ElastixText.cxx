@@ -2,6 +2,7 @@
 /// @file
 /// Reads elastix' parameter files of transforms. README.md lists the entries: each is read, refused
 /// by name, or says nothing about the map.
+#include "Common/Guard.h"
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
@@ -179,13 +180,33 @@ std::vector<double> numbersOf(const Entries& entries, const std::string& name, s
   return numbers;
 }
 
-// A name as it stands if there is such a file; else beside the file that names it.
+// The file that a name of a parameter file means. A relative one is of its folder first: elastix
+// writes names from the folder in which it was started, and the one in which BrainShift runs may
+// hold the files of somebody else.
 std::string namedFile(const std::string& name, const std::string& fileName)
 {
   namespace fs = std::filesystem;
   std::error_code error;
-  const fs::path beside = fs::path(fileName).parent_path() / fs::path(name).filename();
-  return fs::exists(name, error) ? name : beside.string();
+  const fs::path folder = fs::path(fileName).parent_path();
+  const fs::path beside = folder / fs::path(name).filename();
+  for (const fs::path& path : { folder / name, beside }) // an absolute name is its own path
+  {
+    if (fs::exists(path, error))
+    {
+      return path.string();
+    }
+  }
+  const fs::path inWorkingFolder = fs::absolute(name, error);
+  if (error || !fs::exists(inWorkingFolder, error))
+  {
+    return beside.string();
+  }
+  warn(nullptr,
+    joined("Transform file ", fileName, " names the file ", shownWords(name),
+      ", which is not in its folder; BrainShift takes ", inWorkingFolder.string(),
+      ", from the folder in which it was started. Copy the right file beside the one that names "
+      "it"));
+  return inWorkingFolder.string();
 }
 
 // The grid of a B-spline in ITK's order: elastix writes the direction by columns.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Transforms/FSLWarp.h"
 
+#include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
@@ -64,6 +65,24 @@ FSLFrame frameOf(const NIFTIVolume& file, const VolumeHeader& header)
   return frame;
 }
 
+// Reports what a file says of its voxels' positions and does not count. Other warnings of its
+// header are about times and numbers: of an image nothing else is used here, and of a map three
+// volumes are no times.
+void warnOfPlacement(
+  const std::string& fileName, const NIFTIVolume& file, const VolumeHeader& header)
+{
+  std::vector<std::string> warnings;
+  worldFromVoxel(file.placement(), warnings);
+  if (!header.knowsSides)
+  {
+    warnings.emplace_back(UnknownSidesWarning);
+  }
+  for (const std::string& warning : warnings)
+  {
+    warn(nullptr, file.noun() + " " + fileName + " " + warning);
+  }
+}
+
 // Three numbers at each voxel of a file.
 struct Warp
 {
@@ -118,7 +137,8 @@ vtkSmartPointer<vtkNIFTIImageReader> headerReader(const std::string& fileName)
   return reader;
 }
 
-Warp readWarp(const std::string& fileName)
+// `isPlaced`: whether the header places the numbers. That of coefficients holds other numbers.
+Warp readWarp(const std::string& fileName, bool isPlaced)
 {
   NIFTIVolume file;
   VolumeHeader header;
@@ -137,6 +157,10 @@ Warp readWarp(const std::string& fileName)
     throw Problem("has a unit of length that is not mm (xyzt_units); a map must be in mm");
   }
   warp.knowsSides = header.knowsSides;
+  if (isPlaced)
+  {
+    warnOfPlacement(fileName, file, header);
+  }
   const auto reader = headerReader(fileName); // which owns the header
   if (vtkNIFTIImageHeader* stored = reader->GetNIFTIHeader())
   {
@@ -340,6 +364,7 @@ FSLFrame readFSLFrame(const FSLNeed& need, const std::string& image, bool& knows
       withBeginning("places nothing: ", [&] { requireAffine(header.worldFromVoxel); });
       return frameOf(file, header);
     });
+  warnOfPlacement(image, file, header);
   knowsSides = knowsSides && header.knowsSides;
   return frame;
 }
@@ -379,8 +404,8 @@ std::optional<NIFTIWarpKind> niftiWarpOf(const std::string& fileName, bool isOfS
 void addFSLWarp(const std::string& fileName, NIFTIWarpKind kind, const NamedImages& images,
   PointTransform& transform)
 {
-  Warp warp = readWarp(fileName);
   const bool isField = kind == NIFTIWarpKind::FSLField;
+  Warp warp = readWarp(fileName, isField);
   for (const glm::dvec3& number : warp.numbers)
   {
     if (!isField && !std::isfinite(glm::length(number)))
@@ -401,7 +426,7 @@ void addFSLWarp(const std::string& fileName, NIFTIWarpKind kind, const NamedImag
 
 void addPositions(const std::string& fileName, PointTransform& transform)
 {
-  const Warp warp = readWarp(fileName);
+  const Warp warp = readWarp(fileName, true);
   transform.knowsSides = transform.knowsSides && warp.knowsSides;
   append(linkOf(warp, glm::dmat4(1.0)), transform);
 }

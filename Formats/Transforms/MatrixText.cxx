@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Transforms/MatrixText.h"
 
+#include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
@@ -342,6 +343,10 @@ std::vector<std::pair<std::string, std::string>> statementsOf(const std::string&
 FieldLink gridOf(const std::string& fileName)
 {
   PlacedVolume volume = openVolume(fileName);
+  for (const std::string& warning : volume.warnings()) // a step that counts as 1 mm moves points
+  {
+    warn(nullptr, warning);
+  }
   const Grid& grid = volume.geometry().grid;
   const VolumeHeader& header = volume.header();
   const bool isWide = glm::all(glm::greaterThan(grid.dimensions, glm::ivec3(1)));

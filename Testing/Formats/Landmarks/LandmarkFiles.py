@@ -154,6 +154,60 @@ def test_tables():
     assert brainshift.read_points(ras, table_axes="LPS").positions.tolist() == [[1, 2, 3]]
 
 
+def test_names_in_the_comment_above_a_table_of_numbers():
+    """numpy writes its header as a comment. The first line of numbers is a point, too."""
+    for names, separator, right in (("x,y,z", ",", PLACES), ("x_cm;y_cm;z_cm", ";", 10 * PLACES),
+                                    ("l\tp\ts", "\t", PLACES * LPS),
+                                    ("made by hand\nx,y,z", ",", PLACES)):
+        name = scratch("numpy.csv")
+        numpy.savetxt(name, PLACES, header=names, delimiter=separator)
+        with messages() as said:
+            found = brainshift.read_points(name).positions
+        assert not said.text and numpy.allclose(found, right, rtol=0, atol=1e-12), (names, found)
+    numpy.savetxt(name, PLACES, header="i,j,k", delimiter=",")
+    found = brainshift.read_points(name, columns=["i", "j", "k"])
+    assert numpy.array_equal(found.positions, PLACES)
+    assert "it names 1.5" in refusal("numpy.csv", "# made by hand\n1.5,2,3\n4,5,6\n")
+    # A comment above a line of names stays one.
+    found = brainshift.read_points(written("numpy.csv", "# z,y,x\nx,y,z\n1,2,3\n"))
+    assert found.positions.tolist() == [[1, 2, 3]]
+
+
+def test_deviations_have_their_own_unit_or_that_of_the_positions():
+    """A deviation of 0.2 cm is one of 2 mm, in memory and in the file that is written."""
+    for names, mm, words in (
+            ("x_cm,y_cm,z_cm,deviation_cm", 2.0, ""), ("x_cm,y_cm,z_cm,deviation", 2.0, ""),
+            ("x_cm,y_cm,z_cm,deviation_mm", 0.2, ""), ("x,y,z,deviation (cm)", 2.0, ""),
+            ("x,y,z,deviation (1 sd, mm)", 0.2, ""), ("x,y,z,deviation", 0.2, ""),
+            ("x_cm,y_cm,z_cm,deviation_s", 2.0, "deviation_s, whose unit is no length"),
+            ("# units: cm\nx,y,z,deviation", 2.0, "")):
+        comment, names = names.split("\n") if "\n" in names else ("", names)
+        names = ",".join(f'"{name}"' for name in re.split(",(?! )", names))
+        file = written("deviations.csv", f"{comment}\nname,{names}\nA,1,2,3,0.2\n")
+        with messages() as said:
+            found = brainshift.read_points(file).deviations
+        assert numpy.allclose(found, [mm], rtol=0, atol=1e-12), (names, found)
+        assert words in said.text and (words or not said.text), (names, said.text)
+        with messages():
+            brainshift.map_points(file, scratch("deviations_mm.csv"))
+        again = brainshift.read_points(scratch("deviations_mm.csv"))
+        assert numpy.allclose(again.deviations, [mm], rtol=0, atol=1e-12), (names, again)
+    of_each = written("deviations.csv", "x,y,z,unit,deviation\n1,2,3,cm,0.2\n1,2,3,mm,0.2\n")
+    assert numpy.allclose(brainshift.read_points(of_each).deviations, [2.0, 0.2])
+    assert "have several" in refusal("deviations.csv", "x_cm,y_cm,z_mm,deviation\n1,2,3,0.2\n",
+                                     columns=["x_cm", "y_cm", "z_mm"])
+    assert "unit px" in refusal("deviations.csv", "x,y,z,deviation (px)\n1,2,3,0.2\n")
+
+
+def test_times_keep_their_unit_when_they_are_written():
+    for name, kept in (("time_ms", "time_ms"), ("Time [s]", "time_s"), ("time", "time"),
+                       ("time (ticks)", "time (ticks)")):
+        file = written("times.csv", f"name,x,y,z,{name}\nA,1,2,3,500\n")
+        brainshift.map_points(file, scratch("times_written.csv"))
+        with open(scratch("times_written.csv"), encoding="utf-8") as lines:
+            assert lines.read() == f"label,r,a,s,{kept}\nA,1,2,3,500\n"
+
+
 def test_table_of_slicer():
     text = ('label,l,p,s,defined,selected,visible,locked,description\n'
             '"a ""1"", two\nlines",1,2,3,1,1,1,0,\nF-2,,,,0,1,1,0,\n#3,4,5,6,1,1,1,0,\n')
@@ -247,7 +301,8 @@ def walked_fiducials_and_tags():
 
 def walked_tables():
     """Each list of names, and where the position 1 2 3 of such columns lies."""
-    seen = {"columns table", "several table", "n/a table", "time table"}
+    seen = {"columns table", "several table", "n/a table", "time table", "deviation table",
+            "# x,y,z table"}
     for entry, names, right in (
             ("x y z", "x,y,z", (1, 2, 3)), ("x y z", " X , Y [mm], z(mm)", (1, 2, 3)),
             ("r a s", "R,A,S", (1, 2, 3)), ("r a s", "right,anterior,superior", (1, 2, 3)),

@@ -9,7 +9,7 @@ import subprocess
 import minc_files
 import nibabel
 import numpy
-from brainshift_testing import data, load_plugin, run_tests, scratch
+from brainshift_testing import assert_says, data, load_plugin, messages, run_tests, scratch
 from outside_testing import FLIP, itk_text, numbers, write, write_hdf5
 from scipy.interpolate import RBFInterpolator
 from scipy.spatial.transform import Rotation
@@ -239,6 +239,22 @@ def test_xfm_that_is_refused():
             ("0 transforms", ""), ("Displacement_Volume", "Transform_Type = Grid_Transform;\n"
                                    "Displacement_Volume = nowhere.mnc;")):
         refuses(words, xfm("bad.xfm", text))
+
+
+def test_what_is_doubtful_of_a_displacement_volume_is_said():
+    """A file without a step along z counts 1 mm there: its field is squeezed."""
+    import h5py
+    grid_volume("stepless_grid_0.mnc")
+    file = xfm("stepless.xfm", "Transform_Type = Grid_Transform;\n"
+               "Displacement_Volume = stepless_grid_0.mnc;\n")
+    with messages() as said:
+        brainshift.read_transform(file)
+    assert not said.text, said.text
+    with h5py.File(scratch("stepless_grid_0.mnc"), "a") as stored:
+        del stored["minc-2.0/dimensions/zspace"].attrs["step"]
+    with messages() as said:
+        brainshift.read_transform(file)
+    assert_says(said.text, "stepless_grid_0.mnc has no step along zspace, which counts as 1")
 
 
 # ITK and Slicer -----------------------------------------------------------------------------------
@@ -476,6 +492,40 @@ def fnirt_coefficients(knots):
         scratch("fnirt_coefficients.nii.gz"), fixed_image=ref, moving_image=source).map(points)
     print(f"FNIRT coefficients: {largest(found, right):.6f} mm")
     assert largest(found, right) < NEAR and numpy.linalg.norm(bend, axis=1).max() > 1.0
+
+
+def contradictory(name):
+    """Gives a NIfTI file a qform that mirrors its sform. Returns its name."""
+    file = nibabel.load(name)
+    stored = nibabel.Nifti1Image(numpy.asanyarray(file.dataobj), None, file.header)
+    stored.header.set_sform(file.affine, 1)
+    stored.header.set_qform(file.affine @ numpy.diag((-1, 1, 1, 1)), 1)
+    nibabel.save(stored, scratch("contradictory_" + os.path.basename(name)))
+    return scratch("contradictory_" + os.path.basename(name))
+
+
+def test_what_is_doubtful_of_images_of_fsl_is_said():
+    """Each image and each field whose qform mirrors its sform is named; coefficients are not, whose
+    header has other numbers in these places, nor are images without a fault."""
+    (ref, affine, sides), (source, _, _) = pair(-1)
+    field = warp("doubtful.nii", RANDOM.uniform(-3, 3, (*sides, 3)), affine, 2006)
+    fnirt_coefficients(numpy.array((4, 5, 3)))
+    coefficients = scratch("fnirt_coefficients.nii.gz")
+    matrix = write("doubtful.mat", numbers(numpy.eye(4)))
+    for file in (field, coefficients, matrix):
+        for images in ((ref, source), (contradictory(ref), source), (ref, contradictory(source))):
+            with messages() as said:
+                brainshift.read_transform(file, fixed_image=images[0], moving_image=images[1])
+            wrong = [name for name in images if "contradictory" in name]
+            assert_says(said.text, *(f"{name} has a qform that mirrors" for name in wrong))
+            assert wrong or not said.text, (file, said.text)
+    with messages() as said:
+        brainshift.read_transform(contradictory(field), moving_image=source)
+    assert_says(said.text, "contradictory_doubtful.nii has a qform that mirrors")
+    positions = warp("doubtful_y.nii", RANDOM.uniform(-3, 3, (*sides, 3)), affine, 0)
+    with messages() as said:
+        brainshift.read_transform(contradictory(positions), program="spm")
+    assert_says(said.text, "contradictory_doubtful_y.nii has a qform that mirrors")
 
 
 def test_spm_positions_on_request():

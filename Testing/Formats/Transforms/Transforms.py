@@ -145,6 +145,35 @@ def test_files_of_elastix():
         assert largest(found, right) < NEAR, (name, largest(found, right))
 
 
+def test_names_in_files_of_elastix_are_of_their_folder_first():
+    """Two patients have files of the same names, and BrainShift was started in the folder of the
+    wrong one. Only what the right folder lacks comes from there, and a warning names it."""
+    right, wrong = scratch("right_patient"), scratch("wrong_patient")
+    for folder, shift in ((right, 1.0), (wrong, 50.0)):
+        os.makedirs(os.path.join(folder, "first"), exist_ok=True)
+        for name in ("first/0.txt", "beside.txt"):
+            shutil.copy(parameter_file("0.txt", ("TranslationTransform", (shift, 0, 0), ())),
+                        os.path.join(folder, name))
+    shutil.copy(os.path.join(wrong, "beside.txt"), os.path.join(wrong, "only.txt"))
+    before = os.getcwd()
+    os.chdir(wrong)
+    try:
+        for initial, x in (("first/0.txt", 1.0), ("beside.txt", 1.0), ("./gone/beside.txt", 1.0),
+                           (os.path.join(wrong, "beside.txt"), 50.0), ("only.txt", 50.0)):
+            with open(parameter_file("1.txt", ("TranslationTransform", (0, 2.0, 0), ()))) as file:
+                text = file.read().replace("NoInitialTransform", initial)
+            name = os.path.join(right, "1.txt")
+            with open(name, "w") as file:
+                file.write(text)
+            with messages() as said:
+                found = brainshift.read_transform(name).map(POINTS) - POINTS
+            assert numpy.allclose(found, (-x, -2.0, 0.0)), (initial, found[0])
+            warned = os.path.join(wrong, "only.txt") in said.text
+            assert warned == (initial == "only.txt") and (warned or not said.text), said.text
+    finally:
+        os.chdir(before)
+
+
 def test_hdf5_of_elastix():
     """A B-spline that elastix found, in its own text and in HDF5 with ITK's names.
 

@@ -112,6 +112,17 @@ def test_what_cannot_be_written_leaves_the_old_file():
     assert not os.path.exists(scratch("new.txt"))
 
 
+def test_points_of_unknown_axes_are_said_to_count_as_ras():
+    """The file names axes. Those of points from a file are known, and nothing is said."""
+    for source, isSaid in ((simple.PointSource(NumberOfPoints=3), True),
+                           (simple.LandmarkReader(FileName=table()), False)):
+        with messages() as said:
+            simple.SaveData(scratch("axes.mrk.json"), proxy=source)
+        assert ("points whose world axes are not known; they count as RAS" in said.text) == isSaid
+        labels, _, axes = parsed(scratch("axes.mrk.json"))
+        assert axes == "LPS" and len(labels) == (3 if isSaid else len(LABELS))
+
+
 def test_names_are_kept_whatever_their_column_is_called():
     for column, labels in (("electrode", ["A1", "A2"]), ("id", ["7", "8"]), ("wo", ["AC", "PC"])):
         name = scratch("named.csv")
