@@ -216,6 +216,11 @@ def _save_markups(found, name):
         labels.InsertNextValue(label)
     data.SetPoints(points)
     data.GetPointData().AddArray(labels)
+    if found._axes == "RAS":  # else the writer warns that they are not known
+        axes = vtkStringArray()
+        axes.SetName("WorldAxes")
+        axes.InsertNextValue(found._axes)
+        data.GetFieldData().AddArray(axes)
     active = simple.GetActiveSource()
     source = simple.TrivialProducer()
     try:
