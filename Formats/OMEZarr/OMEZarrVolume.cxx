@@ -161,8 +161,8 @@ private:
   {
     const std::vector<double>& scale = this->Image.levels[this->Level].scale;
     const std::array<int, 3>& space = this->Image.axes.space;
-    return std::any_of(space.begin(), space.end(),
-      [&scale](int axis) { return at(scale, axis, 1.0) < 0.0; });
+    return std::any_of(
+      space.begin(), space.end(), [&scale](int axis) { return at(scale, axis, 1.0) < 0.0; });
   }
 
   // Fills what could not be read. False: stopped.

@@ -174,7 +174,8 @@ void VolumeDevice::reportIfCoarse(GpuTask& gpu) const
           "after " + std::to_string(PictureCapture::LongestWait.count()) +
           " s. Save it once more to wait for them"
         : lost > 0
-        ? std::to_string(lost) + " bricks of finer voxels cannot be read, as a message tells. Mend " +
+        ? std::to_string(lost) +
+          " bricks of finer voxels cannot be read, as a message tells. Mend " +
           "the file and save the picture once more, some 30 s later"
         : "there is no memory for more bricks of finer voxels. Set a greater Memory Limit"));
 }
