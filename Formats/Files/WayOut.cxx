@@ -12,8 +12,8 @@ namespace brainshift
 namespace
 {
 constexpr std::string_view Advice[] = { "add", "check", "choose", "close", "convert", "copy",
-  "join", "leave", "let", "make", "name", "open", "resample", "save", "set", "turn", "unpack",
-  "use", "write" };
+  "join", "leave", "let", "make", "name", "open", "reload", "resample", "save", "set", "turn",
+  "unpack", "use", "write" };
 
 // Whether a part of a sentence begins with a verb that tells the reader what to do.
 bool isAdvice(const std::string& part)
@@ -23,6 +23,13 @@ bool isAdvice(const std::string& part)
     return lower.compare(0, verb.size() + 1, std::string(verb) + " ") == 0;
   });
 }
+}
+
+std::string badJson(const std::exception& error)
+{
+  const std::string said = error.what(); // "[json.exception.parse_error.101] parse error at ..."
+  const std::size_t first = said.find(' ') + 1;
+  return "is not good JSON: " + shownWords(said.substr(first, said.find("; check") - first));
 }
 
 std::string withWayOut(const std::string& reason, const std::string& wayOut)

@@ -6,6 +6,7 @@
 
 #include "Common/Problem.h"
 
+#include <exception>
 #include <string>
 
 namespace brainshift
@@ -16,6 +17,12 @@ namespace brainshift
  * must keep is none. Work that was stopped needs none.
  */
 std::string withWayOut(const std::string& reason, const std::string& wayOut);
+
+/**
+ * What the library of JSON says of text that is none, as the end of a sentence. Its advice is for
+ * programmers, so it is left out.
+ */
+std::string badJson(const std::exception& error);
 
 /** Reads a file, as withBeginning does. A reason without a way out gets one. */
 template <typename Step>

@@ -8,6 +8,7 @@
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Files/WayOut.h"
 #include "Formats/Landmarks/LandmarkFormats.h"
 
 #include "vtk_nlohmannjson.h"
@@ -83,8 +84,7 @@ public:
 
   bool parse_error(std::size_t, const std::string&, const std::exception& error)
   {
-    const std::string said = error.what(); // "[json.exception.parse_error.101] parse error at ..."
-    throw Problem("is not good JSON: " + shownWords(said.substr(said.find(' ') + 1)));
+    throw Problem(badJson(error));
   }
 
 private:

@@ -3,6 +3,7 @@
 
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Files/WayOut.h"
 
 #include <cmath>
 
@@ -88,9 +89,7 @@ std::optional<Json> readJson(const ZarrStore& store, const std::string& key)
     }
     catch (const Json::exception& error)
     {
-      const std::string said =
-        error.what(); // "[json.exception.parse_error.101] parse error at ..."
-      throw Problem("is not good JSON: " + shownWords(said.substr(said.find(' ') + 1)));
+      throw Problem(badJson(error));
     }
   });
 }
