@@ -17,7 +17,7 @@ import shutil
 import subprocess
 import sys
 
-MOST_SECONDS = 540  # a window that waits for an answer waits for ever
+MOST_SECONDS = 840  # a window that waits for an answer waits for ever
 LAST_LINES = 40  # of a log
 
 
