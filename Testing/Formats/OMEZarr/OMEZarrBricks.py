@@ -69,8 +69,8 @@ def blurred():
 class Shown:
     """A volume in a view of its own, cut by a plane so that samples have the same places."""
 
-    def __init__(self, source, opacities=TRANSLUCENT, shade=True, size=200, **named):
-        self.view = view_along((-0.2, 0.3, -1), MIDDLE, 190.0, size=size)
+    def __init__(self, source, opacities=TRANSLUCENT, shade=True, size=200, away=190.0, **named):
+        self.view = view_along((-0.2, 0.3, -1), MIDDLE, away, size=size)
         use_headlight(self.view)
         self.display = show_volume(source, self.view, "Deformed Volume", COLORS, opacities,
                                    shade=shade)
@@ -244,12 +244,11 @@ def test_a_store_that_changed_after_it_was_opened():
     for change in (lambda path: os.rename(path, path + ".moved"), rewritten):
         shutil.rmtree(fresh("bricks.zarr") + ".moved", ignore_errors=True)
         path = store()
-        shown = Shown(coarse(path))
-        near = list(shown.view.CameraPosition)
-        shown.view.CameraPosition = [48.0, 56.0, 1300.0]
-        shown.detail()  # now the finer levels are known
+        shown = Shown(coarse(path), away=1900.0)
+        shown.detail()  # now the finer levels are known, and no brick was asked for
         change(path)
-        shown.view.CameraPosition = near
+        shown.view.CameraPosition = [
+            middle + (far - middle) / 10 for middle, far in zip(MIDDLE, shown.view.CameraPosition)]
         with messages() as said:
             image, state = shown.detail()
             save("changed.png", shown.view, 120)
