@@ -77,9 +77,10 @@ void warnOfPlacement(
   {
     warnings.emplace_back(UnknownSidesWarning);
   }
+  const std::string name = file.noun() + " " + fileName + " ";
   for (const std::string& warning : warnings)
   {
-    warn(nullptr, file.noun() + " " + fileName + " " + warning);
+    warn(nullptr, name + warning);
   }
 }
 
