@@ -150,16 +150,21 @@ def upstream(source):
     return found
 
 
-def _proxies_in(proxy):
-    """The properties of a proxy that have proxies, and these: pairs of a property and a list."""
+def properties_of(proxy, kind):
+    """The properties of a proxy that are of a VTK class."""
     iterator = proxy.NewPropertyIterator()
     iterator.UnRegister(None)
     iterator.Begin()
     while not iterator.IsAtEnd():
-        value = iterator.GetProperty()
-        if value.IsA("vtkSMProxyProperty"):
-            yield value, [value.GetProxy(i) for i in range(value.GetNumberOfProxies())]
+        if iterator.GetProperty().IsA(kind):
+            yield iterator.GetProperty()
         iterator.Next()
+
+
+def _proxies_in(proxy):
+    """The properties of a proxy that have proxies, and these: pairs of a property and a list."""
+    for value in properties_of(proxy, "vtkSMProxyProperty"):
+        yield value, [value.GetProxy(i) for i in range(value.GetNumberOfProxies())]
 
 
 def _reached(source, next_of):

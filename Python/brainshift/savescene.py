@@ -12,7 +12,7 @@ import tempfile
 import warnings
 from xml.sax.saxutils import quoteattr
 
-from .casesources import inputs_of, require_kind, sources, stem
+from .casesources import inputs_of, properties_of, require_kind, sources, stem
 from .files import _write, reason_of, save_field, save_volume
 from .mrb import MARK, _whole, pack
 from .mrml import WORLD_POINTS, decoded, encoded
@@ -58,14 +58,8 @@ def _kind(source):
 
 def _texts_of(proxy):
     """The texts that the properties of a proxy hold; those that name files are among them."""
-    iterator = proxy.NewPropertyIterator()
-    iterator.UnRegister(None)
-    iterator.Begin()
-    while not iterator.IsAtEnd():
-        texts = iterator.GetProperty()
-        if texts.IsA("vtkSMStringVectorProperty"):
-            yield from (texts.GetElement(i) or "" for i in range(texts.GetNumberOfElements()))
-        iterator.Next()
+    for texts in properties_of(proxy, "vtkSMStringVectorProperty"):
+        yield from (texts.GetElement(i) or "" for i in range(texts.GetNumberOfElements()))
 
 
 def _is_read(folder, given):
