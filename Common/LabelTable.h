@@ -28,7 +28,8 @@ struct Label
   std::string name;
   std::array<unsigned char, 3> color{ 255, 255, 255 }; ///< red, green, blue
   /// What it is in coded terms, "category~type~modifier", each "scheme^code^meaning" as 3D Slicer
-  /// writes them. Empty: not said.
+  /// writes them; "~region~modifier of the region" follow where an anatomic region is named. Empty:
+  /// not said.
   std::string terms;
 };
 

@@ -36,7 +36,8 @@ std::string termOf(const DICOMDataSet& code, const std::string& characters)
   return term;
 }
 
-// The terms of a segment: category, type, and the type's modifier.
+// The terms of a segment: category, type, and the type's modifier; and the anatomic region with its
+// modifier where one is named.
 std::string termsOf(const DICOMDataSet& segment, const std::string& characters)
 {
   static const DICOMDataSet None;
@@ -45,9 +46,13 @@ std::string termsOf(const DICOMDataSet& segment, const std::string& characters)
     return items.empty() ? None : items.front();
   };
   const DICOMDataSet& type = firstOf(segment, 0x0062000f);
+  const DICOMDataSet& region = firstOf(segment, 0x00082218);
   const std::string terms = termOf(firstOf(segment, 0x00620003), characters) + "~" +
     termOf(type, characters) + "~" + termOf(firstOf(type, 0x00620011), characters);
-  return terms == "^^~^^~^^" ? "" : terms;
+  const std::string where =
+    "~" + termOf(region, characters) + "~" + termOf(firstOf(region, 0x00082220), characters);
+  const std::string all = where == "~^^~^^" ? terms : terms + where;
+  return all == "^^~^^~^^" ? "" : all;
 }
 
 Label labelOf(const DICOMDataSet& segment, const std::string& characters)

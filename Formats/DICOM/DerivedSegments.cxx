@@ -217,7 +217,7 @@ void setTerms(const Label& label, DerivedSet& segment)
 {
   const std::string tissue = "SCT^85756007^Tissue"; // nothing more is known
   std::vector<std::string> terms = partsOf(label.terms, '~');
-  terms.resize(3);
+  terms.resize(5);
   const bool isKnown = !termOf(terms[0]).empty() && !termOf(terms[1]).empty();
   std::vector<DerivedSet> type = termOf(isKnown ? terms[1] : tissue);
   const std::vector<DerivedSet> modifier = isKnown ? termOf(terms[2]) : std::vector<DerivedSet>();
@@ -227,6 +227,16 @@ void setTerms(const Label& label, DerivedSet& segment)
   }
   setSequence(segment, 0x00620003, termOf(isKnown ? terms[0] : tissue));
   setSequence(segment, 0x0062000f, type);
+  std::vector<DerivedSet> region = termOf(terms[3]);
+  const std::vector<DerivedSet> ofRegion = termOf(terms[4]);
+  if (!region.empty() && !ofRegion.empty())
+  {
+    setSequence(region.front(), 0x00082220, ofRegion);
+  }
+  if (!region.empty())
+  {
+    setSequence(segment, 0x00082218, region);
+  }
 }
 
 std::string shortName(const std::string& name)

@@ -141,19 +141,79 @@ bool isOfType(const Json& axis, const std::string& type, const std::string& name
   return textIn(stated) == type || (stated.is_null() && textIn(memberOf(axis, "name")) == name);
 }
 
-// The factor of an axis's unit; 1 with a warning where it names none that is known.
+// Says which axes of space name no unit.
+void warnOfUnits(
+  const Json& list, const std::vector<int>& space, std::vector<std::string>& warnings)
+{
+  std::vector<std::string> names;
+  for (const int place : space)
+  {
+    const Json& axis = list[static_cast<std::size_t>(place)];
+    if (memberOf(axis, "unit").is_null())
+    {
+      names.push_back(shownJson(memberOf(axis, "name")));
+    }
+  }
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+  }
+  if (!names.empty())
+  {
+    warnings.push_back("names no unit of the " + std::string(names.size() > 1 ? "axes " : "axis ") +
+      text + "; mm is taken");
+  }
+}
+
+// The factor of an axis's unit; 1 with a warning where it names none that is known. Of space,
+// warnOfUnits speaks of axes without a unit.
 double unitOf(const Json& axis, bool isTime, std::vector<std::string>& warnings)
 {
   const Json& unit = memberOf(axis, "unit");
   const std::optional<double> known =
     isTime ? secondsIn(textIn(unit)) : millimetresIn(textIn(unit));
-  if (!known)
+  if (!known && (isTime || !unit.is_null()))
   {
     warnings.push_back("names " + (unit.is_null() ? "no unit" : "the unit " + shownJson(unit)) +
       " of the axis " + shownJson(memberOf(axis, "name")) + "; " +
       (isTime ? "s is taken" : "mm is taken"));
   }
   return known.value_or(1.0);
+}
+
+// Where an axis leads in the patient, in RAS; 0 if it does not say so in the words for a standing
+// person. Orientations are RFC 4 of NGFF; its other words are those of animals and embryos.
+glm::dvec3 directionOf(const Json& axis)
+{
+  static const std::map<std::string, glm::dvec3> Known{ { "left-to-right", { 1, 0, 0 } },
+    { "right-to-left", { -1, 0, 0 } }, { "posterior-to-anterior", { 0, 1, 0 } },
+    { "anterior-to-posterior", { 0, -1, 0 } }, { "inferior-to-superior", { 0, 0, 1 } },
+    { "superior-to-inferior", { 0, 0, -1 } } };
+  const Json& orientation = memberOf(axis, "orientation");
+  const auto found = Known.find(textIn(memberOf(orientation, "value")));
+  const bool isKnown = textIn(memberOf(orientation, "type")) == "anatomical" && found != Known.end();
+  return isKnown ? found->second : glm::dvec3(0.0);
+}
+
+// The sides of the patient, if each axis of space leads along another one.
+void readOrientations(const Json& list, OMEImage& image)
+{
+  glm::dmat3 directions(0.0);
+  bool isSaid = false;
+  for (int i = 0; i < 3; ++i)
+  {
+    const int axis = image.axes.space[static_cast<std::size_t>(i)];
+    directions[i] = axis < 0 ? glm::dvec3(0.0) : directionOf(list[static_cast<std::size_t>(axis)]);
+    isSaid = isSaid || directions[i] != glm::dvec3(0.0);
+  }
+  image.knowsSides = glm::determinant(directions) != 0.0;
+  image.rasFromAxes = image.knowsSides ? directions : image.rasFromAxes;
+  if (isSaid && !image.knowsSides)
+  {
+    image.warnings.emplace_back("gives orientations that do not name another side of the patient "
+                                "for each of the axes x, y and z; they are not used");
+  }
 }
 
 // Which axes are x, y and z: by their names or, where they have others, by their order.
@@ -227,7 +287,9 @@ void readAxes(const Json& list, OMEImage& image)
     }
     image.axes.units.push_back(unit);
   }
+  warnOfUnits(list, space, image.warnings);
   placeSpace(list, space, image);
+  readOrientations(list, image);
 }
 
 // ---- Levels
@@ -392,7 +454,11 @@ void readOwn(const Json& own, const std::string& path, OMEImage& image)
   throwIfAny(world.is_null() || world == Json("RAS")
       ? ""
       : "names the world " + shownJson(world) + "; BrainShift reads RAS");
-  image.knowsSides = !world.is_null();
+  if (!world.is_null())
+  {
+    image.knowsSides = true;
+    image.rasFromAxes = glm::dmat3(1.0);
+  }
   readBricks(memberOf(own, "bricks"), path, image);
   const Json& rows = memberOf(own, "direction");
   if (rows.is_null())

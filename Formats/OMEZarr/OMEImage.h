@@ -47,10 +47,12 @@ struct OMEImage
   std::vector<std::string> channels; ///< names, as many as the store has
   bool isLabelMap = false;
   std::vector<Label> labels;
-  /// The axes of the voxels in the world, as columns; places of levels are as if it were 1. Only
-  /// BrainShift's own metadata say it.
+  /// The axes of the voxels in the world, as columns; places of levels are as if it were 1, and all
+  /// levels turn about the first voxel of the finest. Only BrainShift's own metadata say it.
   glm::dmat3 direction{ 1.0 };
-  bool knowsSides = false;           ///< whether they say that the world is RAS
+  /// RAS from the space of scales and translations, as the orientations of the axes say it.
+  glm::dmat3 rasFromAxes{ 1.0 };
+  bool knowsSides = false;           ///< whether either says that the world is RAS
   std::vector<std::string> warnings; ///< ends of sentences about the store
 };
 

@@ -375,6 +375,7 @@ private:
     {
       this->turn(header.worldFromVoxel);
     }
+    header.worldFromVoxel = glm::dmat4(this->Image.rasFromAxes) * header.worldFromVoxel;
     header.knowsSides = this->Image.knowsSides;
     if (!header.knowsSides)
     {

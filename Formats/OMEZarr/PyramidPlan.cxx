@@ -102,9 +102,18 @@ Json axesOf(const PyramidContent& content)
   {
     axes.push_back({ { "name", "c" }, { "type", "channel" } });
   }
-  for (const char* name : { "z", "y", "x" })
+  // Where axes of voxels lead nearly along those of the world, other programs get to know the sides.
+  const glm::dmat3& direction = content.grid.direction;
+  constexpr double Near = 0.7;
+  const bool isUpright = direction[0][0] > Near && direction[1][1] > Near && direction[2][2] > Near;
+  for (const auto& [name, leads] : { std::pair{ "z", "inferior-to-superior" },
+         std::pair{ "y", "posterior-to-anterior" }, std::pair{ "x", "left-to-right" } })
   {
     axes.push_back({ { "name", name }, { "type", "space" }, { "unit", "millimeter" } });
+    if (content.knowsSides && isUpright)
+    {
+      axes.back()["orientation"] = { { "type", "anatomical" }, { "value", leads } };
+    }
   }
   return axes;
 }

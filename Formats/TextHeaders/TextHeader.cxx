@@ -10,6 +10,7 @@
 #include "vtkDataArray.h"
 #include "vtkSetGet.h" // for vtkTemplateMacro
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -403,6 +404,52 @@ void readTextHeader(const std::string& fileName, TextHeader& header)
     }
   });
   throwIfAny(shownWords(problem));
+}
+
+namespace
+{
+// Bytes that a file has beside those that its header announces, unpacked; 0 if that is not known.
+double surplusOf(const TextHeader& header, const std::string& dataFile)
+{
+  constexpr double Modulus = 4294967296.0; // gzip ends with the number of its bytes, modulo this
+  std::error_code error;
+  const auto size = static_cast<double>(std::filesystem::file_size(dataFile, error));
+  const double wanted = header.dataBytes() / static_cast<double>(header.dataFiles.size());
+  if (error || header.isAtEnd || header.encoding == Encoding::Text || header.lineSkip > 0)
+  {
+    return 0.0;
+  }
+  if (header.encoding == Encoding::Raw)
+  {
+    return std::max(0.0, size - static_cast<double>(header.fileSkip) - wanted);
+  }
+  std::ifstream file(dataFile, std::ios::binary);
+  std::array<unsigned char, 4> last{};
+  std::array<unsigned char, 2> first{};
+  file.read(reinterpret_cast<char*>(first.data()), first.size());
+  file.seekg(-static_cast<std::streamoff>(last.size()), std::ios::end);
+  file.read(reinterpret_cast<char*>(last.data()), last.size());
+  const bool isGzip = file && first[0] == 0x1f && first[1] == 0x8b;
+  const double unpacked = last[0] + 256.0 * (last[1] + 256.0 * (last[2] + 256.0 * last[3]));
+  const double all = wanted + static_cast<double>(header.unpackedSkip);
+  return isGzip && all < Modulus ? std::max(0.0, unpacked - all) : 0.0;
+}
+}
+
+void warnOfSurplus(TextHeader& header)
+{
+  for (const std::string& dataFile : header.dataFiles)
+  {
+    const double surplus = header.isLocal ? 0.0 : surplusOf(header, dataFile);
+    if (surplus > 0.0)
+    {
+      header.warnings.push_back(joined("leaves out ", surplus, " bytes at the end of ",
+        shownWords(std::filesystem::path(dataFile).filename().string()),
+        "; if that file begins with a header of its own, the voxels are at wrong places: ",
+        header.text.isNRRD ? "byte skip" : "HeaderSize", " must leave it out"));
+      return;
+    }
+  }
 }
 
 void requireNumbers(const TextHeader& header)

@@ -154,6 +154,12 @@ void readTextHeader(const std::string& fileName, TextHeader& header);
 void requireNumbers(const TextHeader& header);
 
 /**
+ * Adds a warning if a file beside the header has more bytes than the header announces: it may begin
+ * with a header of its own, which would be taken for numbers. Raw and gzip alone.
+ */
+void warnOfSurplus(TextHeader& header);
+
+/**
  * Fills `to` with all numbers, in the byte order of this machine: header.dataBytes() bytes. Throws
  * the end of a sentence. It returns early if `fractionDone` says stop.
  */

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace brainshift
 {
@@ -50,6 +51,32 @@ std::array<unsigned char, 3> colorIn(const std::string& text)
     color[i] = static_cast<unsigned char>(std::lround(255.0 * share));
   }
   return color;
+}
+
+// The coded terms in the tags of a segment (Label::terms): "TerminologyEntry:context~category~type~
+// modifier~context of regions~region~modifier of the region|". Empty if there are none.
+std::string termsIn(const std::string& tags)
+{
+  const std::string key = "TerminologyEntry:";
+  const std::size_t begin = ("|" + tags).find("|" + key);
+  if (begin == std::string::npos)
+  {
+    return "";
+  }
+  std::istringstream entry(tags.substr(begin + key.size(), tags.find('|', begin) - begin - key.size()));
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(entry, part, '~');)
+  {
+    parts.push_back(part);
+  }
+  if (parts.size() < 4)
+  {
+    return "";
+  }
+  parts.resize(7, "^^");
+  const std::string terms = parts[1] + "~" + parts[2] + "~" + parts[3];
+  const std::string region = parts[5] + "~" + parts[6];
+  return terms + (region == "^^~^^" || region == "~" ? "" : "~" + region);
 }
 
 // A whole number from a text; `otherwise` if it holds none.
@@ -123,6 +150,7 @@ std::vector<Segment> segmentsOf(const HeaderText& text, std::size_t components)
     label.name = name.empty() ? id : name;
     label.value = wholeIn(text.keyed(prefix + "LabelValue"), 1);
     label.color = colorIn(text.keyed(prefix + "Color"));
+    label.terms = termsIn(text.keyed(prefix + "Tags"));
     const std::string layer = text.keyed(prefix + "Layer");
     layered += layer.empty() ? 0 : 1;
     segments.push_back({ label, wholeIn(layer, 0) });
@@ -215,6 +243,27 @@ bool isTextHeaderVolume(const std::string& fileName, TextFormat format)
   return hasVoxels && (dimensionsText.empty() || !(dimensions[0] < 3.0));
 }
 
+// The name of a transform of the second picture, if a file holds pictures of a tracked probe as PLUS
+// and 3D Slicer record them: Seq_Frame0001_ProbeToTrackerTransform. Empty: it does not.
+std::string trackedTransform(const HeaderText& text)
+{
+  for (const auto* names : { &text.fields, &text.keys })
+  {
+    for (const auto& [name, value] : *names)
+    {
+      const std::string lower = lowerCase(name);
+      const std::string begin = "seq_frame0001_";
+      const std::string end = "transform";
+      if (lower.size() > begin.size() + end.size() && lower.compare(0, begin.size(), begin) == 0 &&
+        lower.compare(lower.size() - end.size(), end.size(), end) == 0)
+      {
+        return name;
+      }
+    }
+  }
+  return "";
+}
+
 class TextHeaderVolume : public VolumeFile
 {
 public:
@@ -279,8 +328,22 @@ void TextHeaderVolume::readHeader(const std::string& fileName, VolumeHeader& hea
     throw Problem(isNRRD ? "is an NRRD file and no MetaImage" : "does not begin with NRRD");
   }
   throwIfAny(problem);
+  const std::string tracked = trackedTransform(this->Stored.text);
+  if (!tracked.empty() && this->Stored.axes.size() == 3)
+  {
+    throw Problem("holds " + std::to_string(this->Stored.axes[2].count) +
+      " pictures of a tracked probe, each at a place of its own (" + shownWords(tracked) +
+      "), and no volume; make a volume of them in PLUS or 3D Slicer (SlicerIGT, Volume "
+      "Reconstruction)");
+  }
   this->arrange(header);
   requireNumbers(this->Stored);
+  warnOfSurplus(this->Stored);
+  if (!tracked.empty())
+  {
+    this->Stored.warnings.push_back(
+      "names transforms of its times, such as " + shownWords(tracked) + ", which do not place it");
+  }
   const glm::dvec3 signs = rasSigns(this->Stored.space);
   int axis = 0;
   for (const HeaderAxis& along : this->Stored.axes)

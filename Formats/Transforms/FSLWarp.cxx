@@ -235,6 +235,42 @@ void makePositions(Warp& warp)
   }
 }
 
+// How much of the spread of a warp's numbers an affine map of their voxels explains, 0 to 1:
+// positions follow their voxels, velocities do not.
+double explainedByVoxels(const Warp& warp)
+{
+  const glm::dvec3 middle = 0.5 * glm::dvec3(warp.frame.dimensions - 1);
+  glm::dmat4 squares(0.0); // sums of the products of (voxel, 1) with itself
+  glm::dmat4x3 products(0.0); // and with the numbers
+  glm::dvec3 sum(0.0);
+  double all = 0.0;
+  for (std::size_t i = 0; i < warp.numbers.size(); ++i)
+  {
+    const glm::dvec3& number = warp.numbers[i];
+    if (std::isfinite(glm::length(number)))
+    {
+      const glm::dvec4 place(indexOf(i, warp.frame.dimensions) - middle, 1.0);
+      squares += glm::outerProduct(place, place);
+      products += glm::outerProduct(number, place);
+      sum += number;
+      all += glm::dot(number, number);
+    }
+  }
+  const double count = squares[3][3];
+  const double spread = all - glm::dot(sum, sum) / count;
+  if (!(count > 0.0) || !(spread > 0.0) || glm::determinant(squares) == 0.0)
+  {
+    return 0.0;
+  }
+  const glm::dmat4x3 map = products * glm::inverse(squares);
+  double explained = -glm::dot(sum, sum) / count;
+  for (int column = 0; column < 4; ++column)
+  {
+    explained += glm::dot(map[column], products[column]);
+  }
+  return explained / spread;
+}
+
 bool isNear(const glm::dmat4& one, const glm::dmat4& other)
 {
   double most = 0.0;
@@ -427,7 +463,14 @@ void addFSLWarp(const std::string& fileName, NIFTIWarpKind kind, const NamedImag
 
 void addPositions(const std::string& fileName, PointTransform& transform)
 {
+  constexpr double LeastOfPositions = 0.5; // those of a bent head have 0.98 and more
   const Warp warp = readWarp(fileName, true);
+  if (explainedByVoxels(warp) < LeastOfPositions)
+  {
+    throw Problem("holds numbers that do not grow along its voxels, as positions do; a flow field "
+                  "of DARTEL or Shoot (u_, v_) has velocities: let SPM write a deformation (y_) "
+                  "of it");
+  }
   transform.knowsSides = transform.knowsSides && warp.knowsSides;
   append(linkOf(warp, glm::dmat4(1.0)), transform);
 }

@@ -15,7 +15,7 @@ from .mrmltransforms import KINDS, Link, Transforms, files_of, merged, motion_in
 from .points import taken_by
 from .transforms import read_transform
 
-VOLUMES, MODELS = ("Volume", "LabelMapVolume"), ("Model",)
+VOLUMES, MODELS = ("Volume", "LabelMapVolume"), ("Model", "FiberBundle")
 SEGMENTATIONS = ("Segmentation",)
 #: Markups whose points are all that they are, and those that are more than their points.
 POINTS = ("MarkupsFiducial",)

@@ -412,6 +412,16 @@ def modified(image):
         0].SegmentedPropertyTypeModifierCodeSequence = code("SCT", "7771000", "Left")
 
 
+def in_region(image):
+    image.SegmentSequence[0].AnatomicRegionSequence = code("SCT", "69930009", "Pancreas")
+
+
+def at_left_of_region(image):
+    in_region(image)
+    image.SegmentSequence[0].AnatomicRegionSequence[0].AnatomicRegionModifierSequence = code(
+        "SCT", "7771000", "Left")
+
+
 def put(**values):
     def change(image):
         for name, value in values.items():
@@ -434,6 +444,8 @@ def test_each_attribute_of_segments_does_what_the_list_says():
         "SegmentedPropertyTypeCodeSequence": by(of_segment(
             SegmentedPropertyTypeCodeSequence=code("SCT", "1", "Other"))),
         "SegmentedPropertyTypeModifierCodeSequence": by(modified),
+        "AnatomicRegionSequence": by(in_region),
+        "AnatomicRegionModifierSequence": by(at_left_of_region),
         "SegmentIdentificationSequence": frames, "ReferencedSegmentNumber": frames,
         "MaximumFractionalValue": most,
         "SegmentsOverlap": by(put(SegmentsOverlap="YES")),

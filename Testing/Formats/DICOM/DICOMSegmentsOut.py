@@ -134,7 +134,8 @@ def test_each_label_lies_where_it_lay():
 def test_study_names_colours_and_terms_go_along():
     like = scan()
     terms = ["SCT^49755003^Morphologically Abnormal Structure~SCT^4147007^Mass~^^",
-             "SCT^123037004^Anatomical Structure~SCT^64033007^Kidney~SCT^7771000^Left"]
+             "SCT^123037004^Anatomical Structure~SCT^64033007^Kidney~SCT^7771000^Left~"
+             "SCT^818983003^Abdomen~SCT^255554000^Dorsal"]
     labels = random_labels(image_shape(like), 2)
     path, told = saved(labelled(like, labels, [(1, "Tumour"), (2, "Nière")], terms), like)
     assert not told, told
@@ -154,6 +155,10 @@ def test_study_names_colours_and_terms_go_along():
     type_of = image.SegmentSequence[1].SegmentedPropertyTypeCodeSequence[0]
     assert type_of.CodeMeaning == "Kidney"
     assert type_of.SegmentedPropertyTypeModifierCodeSequence[0].CodeMeaning == "Left"
+    assert "AnatomicRegionSequence" not in image.SegmentSequence[0]
+    [region] = image.SegmentSequence[1].AnatomicRegionSequence
+    assert region.CodeValue == "818983003", region
+    assert region.AnatomicRegionModifierSequence[0].CodeMeaning == "Dorsal"
 
     fields = output(DICOMVolumeReader(FileName=path)).GetFieldData()
     names, colours, codes = (

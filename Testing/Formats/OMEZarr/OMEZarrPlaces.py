@@ -107,6 +107,49 @@ def test_other_units_are_reported():
         known = "no unit" if unit is None else "the unit"
         assert f"names {known}" in text and "mm is taken" in text, text
         assert unit is None or str(unit) in text, text
+    axes = [{"name": axis["name"], "type": "space"} for axis in SPACE]
+    text = said_of(one_level([{"type": "scale", "scale": [1, 1, 1]}], None, axes))
+    assert 'names no unit of the axes "z", "y" and "x"; mm is taken' in text, text
+
+
+def oriented(*words):
+    """A store whose axes z, y and x lead along these words (RFC 4 of NGFF); None: not said."""
+    axes = [{**axis, **({"orientation": {"type": "anatomical", "value": word}} if word else {})}
+            for axis, word in zip(SPACE, words)]
+    return one_level([{"type": "scale", "scale": [1, 2, 3]},
+                      {"type": "translation", "translation": [10, 20, 30]}], None, axes)
+
+
+def test_orientations_of_axes_name_the_sides():
+    values = CUBE
+    for words, signs, order in (
+            (("inferior-to-superior", "posterior-to-anterior", "left-to-right"), (1, 1, 1),
+             (0, 1, 2)),
+            (("inferior-to-superior", "anterior-to-posterior", "right-to-left"), (-1, -1, 1),
+             (0, 1, 2)),
+            (("right-to-left", "superior-to-inferior", "anterior-to-posterior"), (-1, -1, -1),
+             (2, 0, 1))):
+        path = oriented(*words)
+        assert "sides of the patient" not in said_of(path), words
+        image = output(simple.OMEZarrReader(FileName=path))
+        assert image.GetFieldData().GetAbstractArray("WorldAxes").GetValue(0) == "RAS"
+        # Of each axis of the world, R A S: the axis of z, y, x in the store that leads along it.
+        stored = [2 - axis for axis in order]
+        for index in numpy.ndindex(*values.shape):
+            at = [([10, 20, 30][i] + [1, 2, 3][i] * index[i]) for i in stored]
+            place = [sign * each for sign, each in zip(signs, at)]
+            found = image.FindPoint(place)
+            near(image.GetPoint(found), place)
+            assert image.GetPointData().GetScalars().GetValue(found) == values[index], index
+
+
+def test_other_orientations_name_no_side():
+    for words in (("dorsal-to-ventral", "rostral-to-caudal", "left-to-right"),
+                  ("inferior-to-superior", "left-to-right", "right-to-left"),
+                  ("inferior-to-superior", "posterior-to-anterior", None)):
+        text = said_of(oriented(*words))
+        assert "sides of the patient" in text and "they are not used" in text, text
+        near(output(simple.OMEZarrReader(FileName=oriented(*words))).GetOrigin(), (30, 20, 10))
 
 
 def test_axes_of_other_names_are_reported():

@@ -28,6 +28,10 @@ NEAR_FIELD = 0.05  # mm: the samples of the field are 2 mm apart
 REST = numpy.random.default_rng(9).uniform((-25, -20, -25), (25, 20, 25), (10, 3))
 
 
+#: What 3D Slicer says of a segment, in coded terms.
+TAGS = ("TerminologyEntry:Segmentation category and type - DICOM master list~"
+        "SCT^49755003^Morphologically Altered Structure~SCT^4147007^Mass~^^~"
+        "Anatomic codes - DICOM master list~SCT^12738006^Brain~SCT^7771000^Left|")
 ORIGIN = numpy.array((-40.0, -44.0, -30.0))  # LPS
 HEAD, LABELS = ball(41, 14).astype(numpy.int16), numpy.zeros((41, 41, 41), numpy.uint8)
 HEAD[5:8, 6:12, 30:34] = 55  # no two axes are alike, and no two ends of one
@@ -38,7 +42,7 @@ def bent_head():
     """A volume of a file, bent by two strokes, and labels."""
     slicer.write_nrrd(scratch("Kopf ä.nrrd"), HEAD, ORIGIN, numpy.eye(3) * 2.0)
     words = ("Segment0_ID:=Segment_1", "Segment0_Name:=Tümor", "Segment0_Color:=1 0.5 0",
-             "Segment0_LabelValue:=3", "Segment0_Layer:=0")
+             "Segment0_LabelValue:=3", "Segment0_Layer:=0", "Segment0_Tags:=" + TAGS)
     slicer.write_nrrd(scratch("Labels.seg.nrrd"), LABELS, ORIGIN, numpy.eye(3) * 2.0, words)
     head = simple.NRRDVolumeReader(FileName=scratch("Kopf ä.nrrd"))
     segments = simple.NRRDVolumeReader(FileName=scratch("Labels.seg.nrrd"))
@@ -165,7 +169,8 @@ def test_a_saved_scene_is_bent_in_slicer():
     assert_places(files["labels"], LABELS, ORIGIN, numpy.eye(3) * 2.0)
     words, _ = header_and_values(files["labels"])
     assert words["Segment0_Name"] == "Tümor" and words["Segment0_LabelValue"] == "3", words
-    assert words["Segment1_LabelValue"] == "7", words
+    assert words["Segment0_Tags"] == TAGS, words
+    assert words["Segment1_LabelValue"] == "7" and words["Segment1_Tags"] == "|", words
 
 
 def test_the_hardened_copy_has_each_voxel_where_the_bake_has_it():

@@ -375,11 +375,13 @@ def test_models_in_both_axes():
                        ("lps.obj", "RAS")):
         scene.stored("Model", name, name, above="Placed", storage={"coordinateSystem": axes})
     scene.stored("Model", "old.vtk", "ras.vtk", old=True)
+    scene.stored("FiberBundle", "tracts", "lps.vtp", storage={"coordinateSystem": "LPS"})
     found = opened(scene.written())
     assert not found.notes, found.notes
     for name in ("lps.vtk", "ras.vtk", "lps.vtp", "lps.ply", "said.vtk", "said.vtp"):
         assert_there(found.models[name], of_rows(TURN, right))
     assert_there(found.models["old.vtk"], right)
+    assert_there(found.models["tracts"], right)
     assert_there(found.models["lps.obj"],
                  of_rows(TURN, numpy.array(((-1, -2, 3), (-4, -5, 6), (-7, -8, 10.0)))))
     bounds = found.models["lps.stl"].GetDataInformation().GetBounds()  # points in another order

@@ -4,6 +4,7 @@
 #include "Testing/Formats/Volumes/VolumeFormatTesting.h"
 
 #include <map>
+#include <vector>
 
 using namespace brainshift::testing;
 
@@ -176,4 +177,48 @@ TEST(TextHeaderSaid, SegmentsWithoutLayers)
     "has 4 segments in 3 layers, of which 4 name no layer");
   expectRefused<NRRD>("old.seg.nrrd", nrrd(begin + "Segment1_Layer:=1\n", "3 2 2 2"),
     "has 3 segments in 3 layers, of which 2 name no layer");
+}
+
+// Recordings of PLUS and 3D Slicer: each picture has a place of its own.
+TEST(TextHeaderSaid, PicturesOfATrackedProbeAreNoVolume)
+{
+  const std::string place = "1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1";
+  const auto tracked = [&](int frame) {
+    return "Seq_Frame000" + std::to_string(frame) + "_ProbeToTrackerTransform";
+  };
+  expectRefused<Meta>("sweep.igs.mha",
+    metaImage({ { tracked(0), place }, { tracked(1), place } }),
+    "holds 2 pictures of a tracked probe, each at a place of its own");
+  expectRefused<NRRD>("sweep.igs.nrrd", nrrd(Placed + tracked(1) + ":=" + place + "\n"),
+    "SlicerIGT, Volume Reconstruction");
+  EXPECT_EQ(saidOf<Meta>("one.mha",
+              metaImage({ { tracked(0), place }, { "Seq_Frame0001_Timestamp", "2.5" } })),
+    "");
+  expectSaid<NRRD>("times.nrrd",
+    nrrd("space: RAS\nspace origin: (0,0,0)\nkinds: list domain domain domain\n"
+         "space directions: none (1,0,0) (0,1,0) (0,0,1)\n" +
+        tracked(1) + ":=" + place + "\n",
+      "3 2 2 2"),
+    "which do not place it");
+}
+
+// The file may begin with a header of its own, such as that of NIfTI.
+TEST(TextHeaderSaid, BytesBesideTheNumbersOfAnotherFile)
+{
+  const std::string header = "NRRD0005\ntype: uchar\nencoding: raw\ndimension: 3\nsizes: 2 2 2\n" +
+    Placed + "data file: surplus.raw\n";
+  writeFile("surplus.raw", Numbers + "1234");
+  expectSaid<NRRD>("surplus.nhdr", header, "leaves out 4 bytes at the end of surplus.raw");
+  EXPECT_EQ(saidOf<NRRD>("surplus.nhdr", header + "byte skip: 4\n"), "");
+  EXPECT_EQ(saidOf<NRRD>("surplus.nhdr", header + "byte skip: -1\n"), "");
+  const auto bytesOf = [](const std::vector<unsigned char>& values) {
+    return std::string(values.begin(), values.end());
+  };
+  // gzip: a stored block of 12 bytes, their checksum and their number
+  writeFile("surplus.raw",
+    bytesOf({ 0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 3, 1, 12, 0, 0xf3, 0xff }) + Numbers + "1234" +
+      bytesOf({ 0xf2, 0x02, 0x82, 0x11, 12, 0, 0, 0 }));
+  const std::string ofPacked = std::string(header).replace(header.find("raw"), 3, "gzip");
+  expectSaid<NRRD>("surplus.nhdr", ofPacked, "leaves out 4 bytes");
+  EXPECT_EQ(saidOf<NRRD>("surplus.nhdr", ofPacked + "byte skip: 4\n"), "");
 }

@@ -41,6 +41,11 @@ def moved(matrix, points):
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
+def places_of_voxels(affine, sides):
+    indices = numpy.moveaxis(numpy.indices(sides), 0, -1)
+    return moved(affine, indices.reshape(-1, 3)).reshape(*sides, 3)
+
+
 def real(*path):
     return data("transforms", *path)
 
@@ -522,7 +527,7 @@ def test_what_is_doubtful_of_images_of_fsl_is_said():
     with messages() as said:
         brainshift.read_transform(contradictory(field), moving_image=source)
     assert_says(said.text, "contradictory_doubtful.nii has a qform that mirrors")
-    positions = warp("doubtful_y.nii", RANDOM.uniform(-3, 3, (*sides, 3)), affine, 0)
+    positions = warp("doubtful_y.nii", places_of_voxels(affine, sides), affine, 0)
     with messages() as said:
         brainshift.read_transform(contradictory(positions), program="spm")
     assert_says(said.text, "contradictory_doubtful_y.nii has a qform that mirrors")
@@ -531,7 +536,7 @@ def test_what_is_doubtful_of_images_of_fsl_is_said():
 def test_spm_positions_on_request():
     (_, affine, sides), _ = pair(1)
     x, y, z = numpy.mgrid[:24, :26, :22]
-    places = moved(affine, numpy.stack((x, y, z), axis=-1).reshape(-1, 3)).reshape(*sides, 3)
+    places = places_of_voxels(affine, sides)
     vectors = numpy.stack((9 * numpy.sin(x / 5.0), 8 * numpy.cos(z / 6.0), y / 3.0), axis=-1)
     points = inner(affine, sides)
     at = moved(numpy.linalg.inv(affine), points)
@@ -547,6 +552,9 @@ def test_spm_positions_on_request():
         file = warp("y_itk.nii", vectors, affine, 1007, 5, called=name)
         refuses(f"1007 with the name '{name}'", file, program="SPM")
     refuses("intent 1006", warp("y_other.nii", vectors, affine, 1006, 5), program="SPM")
+    for flow in (vectors, numpy.zeros(vectors.shape)):
+        refuses("do not grow along its voxels", warp("u_flow.nii", flow, affine, 0, 5),
+                program="SPM")
     refuses("SPM writes none as text", write("sixteen.txt", numbers(numpy.eye(4))), program="spm")
 
 

@@ -191,12 +191,16 @@ def test_a_field_opens_as_a_field():
 
 
 def test_segments_of_slicer():
-    """Names and colours as Slicer writes them, kept by Free-Form Deformation."""
+    """Names, colours and terms as Slicer writes them, kept by Free-Form Deformation."""
     labels = numpy.zeros(SHAPE, "uint8")
     labels[1:3, 1:4, 1] = 7
     more = ["Segment0_ID:=Segment_1", "Segment0_Name:=tumour", "Segment0_LabelValue:=7",
             "Segment0_Color:=1 0.5 0", "Segment0_Layer:=0", "Segment0_Extent:=1 2 1 3 1 1",
-            "Segment1_ID:=Segment_2", "Segment1_LabelValue:=9", "Segment1_Layer:=0"]
+            "Segment0_Tags:=Segmentation.Status:inprogress|TerminologyEntry:A list~SCT^1^Tissue~"
+            "SCT^2^Mass~^^~Regions~^^~^^|",
+            "Segment1_ID:=Segment_2", "Segment1_LabelValue:=9", "Segment1_Layer:=0",
+            "Segment1_Tags:=TerminologyEntry:A list~SCT^1^Tissue~SCT^3^Skin~SCT^4^Left~Regions~"
+            "SCT^5^Head~^^|"]
     name = volume_files.write(scratch("made.seg.nrrd"), volume_files.nrrd(
         labels, next(volume_files.turns()), more=more))
     source = opened(name, "NRRDVolumeReader")
@@ -206,6 +210,9 @@ def test_segments_of_slicer():
         assert field(proxy, "LabelColors").tolist() == [[255, 128, 0], [255, 255, 255]]
         names = output(proxy).GetFieldData().GetAbstractArray("LabelNames")
         assert [names.GetValue(i) for i in range(2)] == ["tumour", "Segment_2"]
+        terms = output(proxy).GetFieldData().GetAbstractArray("LabelTerms")
+        assert [terms.GetValue(i) for i in range(2)] == [
+            "SCT^1^Tissue~SCT^2^Mass~^^", "SCT^1^Tissue~SCT^3^Skin~SCT^4^Left~SCT^5^Head~^^"]
     assert set(numpy.unique(voxels(source))) == {0, 7}
 
 
