@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/ImageGrid.h"
 
+#include "Common/ImageParts.h"
+
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -32,9 +34,14 @@ std::string sidesOf(const int extent[6])
 
 Grid gridOf(vtkImageData* image)
 {
-  Grid grid;
   int extent[6];
   image->GetExtent(extent);
+  return gridOf(image, extent);
+}
+
+Grid gridOf(vtkImageData* image, const int extent[6])
+{
+  Grid grid;
   vtkMatrix3x3* direction = image->GetDirectionMatrix();
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -169,16 +176,7 @@ Grid wholeGridOf(vtkImageData* image, vtkInformation* info)
   }
   int whole[6];
   info->Get(Pipeline::WHOLE_EXTENT(), whole);
-  int extent[6];
-  image->GetExtent(extent);
-  Grid grid = gridOf(image);
-  const glm::dvec3 toWholeStart(whole[0] - extent[0], whole[2] - extent[2], whole[4] - extent[4]);
-  grid.origin = grid.worldFromGrid(toWholeStart);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    grid.dimensions[axis] = whole[2 * axis + 1] - whole[2 * axis] + 1;
-  }
-  return grid;
+  return gridOf(image, whole);
 }
 
 std::string problemOfPart(vtkImageData* image, vtkInformation* information)

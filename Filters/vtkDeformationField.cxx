@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
+#include "Common/ImageParts.h"
 #include "Common/Portions.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Formats/Fields/FieldImage.h"
@@ -190,8 +191,17 @@ int vtkDeformationField::RequestInformation(
 int vtkDeformationField::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  // The volume's box is that of all of it.
-  updateWholeExtent(inputs[0]->GetInformationObject(0));
+  // The lattice and the whole box come with any part. A small volume is mostly there as a whole.
+  constexpr double smallMiB = 512.0;
+  vtkInformation* input = inputs[0]->GetInformationObject(0);
+  if (isBestAskedWhole(input, smallMiB))
+  {
+    updateWholeExtent(input);
+  }
+  else
+  {
+    updateExtent(input, cornerOf(wholeExtentOf(input)));
+  }
   return 1;
 }
 
@@ -201,9 +211,8 @@ int vtkDeformationField::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
   const auto direction = static_cast<brainshift::Direction>(this->Direction);
-  requireWhole(input, inputs[0]->GetInformationObject(0));
   const Source source = sourceOf(input, direction);
-  const Grid samples = this->SamplesOver(gridOf(input));
+  const Grid samples = this->SamplesOver(wholeGridOf(input, inputs[0]->GetInformationObject(0)));
   int extent[6];
   outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), extent);
   requireMemory(extent, !source.deviations.empty());

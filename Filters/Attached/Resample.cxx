@@ -9,12 +9,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <type_traits>
 
 namespace brainshift
 {
 namespace
 {
+// Voxels around a position that are held before it is read: more than any reading takes.
+constexpr int Taps = 2;
+
 // A position this far outside the voxels still counts as the border: single precision's part.
 constexpr float BorderTolerance = 1e-3f; // voxels
 
@@ -47,19 +51,42 @@ template <typename T>
 class Voxels
 {
 public:
-  Voxels(const T* values, int components, const glm::ivec3& dimensions)
+  Voxels(const T* values, int components, const ResampleGeometry& geometry)
     : Values(values)
     , Components(components)
-    , Dimensions(dimensions)
-    , StrideY(static_cast<std::ptrdiff_t>(components) * dimensions.x)
-    , StrideZ(StrideY * dimensions.y)
+    , Dimensions(geometry.dimensions)
+    , StrideY(static_cast<std::ptrdiff_t>(components) * geometry.held.size().x)
+    , StrideZ(StrideY * geometry.held.size().y)
   {
+    const IndexBox& held = geometry.held;
+    this->First = this->offset(held.first);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const bool isLast = held.last[axis] >= this->Dimensions[axis] - 1;
+      this->Low[axis] = held.first[axis] <= 0 ? -infinity : float(held.first[axis] + Taps);
+      this->High[axis] = isLast ? infinity : float(held.last[axis] - Taps);
+    }
   }
 
   const T* at(const glm::ivec3& index) const
   {
-    return this->Values + index.z * this->StrideZ + index.y * this->StrideY +
-      static_cast<std::ptrdiff_t>(index.x) * this->Components;
+    return this->Values + (this->offset(index) - this->First);
+  }
+
+  // Whether all that is read at a position within the volume is held.
+  bool holds(const glm::vec3& position) const
+  {
+    return glm::all(glm::greaterThanEqual(position, this->Low)) &&
+      glm::all(glm::lessThanEqual(position, this->High));
+  }
+
+  // What is to be held so that a position can be read.
+  IndexBox around(const glm::vec3& position) const
+  {
+    const glm::ivec3 low(glm::floor(position));
+    return { glm::clamp(low - Taps - 1, glm::ivec3(0), this->Dimensions - 1),
+      glm::clamp(low + Taps + 2, glm::ivec3(0), this->Dimensions - 1) };
   }
 
   bool contains(const glm::vec3& position) const
@@ -82,6 +109,12 @@ public:
   }
 
 private:
+  std::ptrdiff_t offset(const glm::ivec3& index) const
+  {
+    return index.z * this->StrideZ + index.y * this->StrideY +
+      static_cast<std::ptrdiff_t>(index.x) * this->Components;
+  }
+
   void nearest(const glm::vec3& position, T* out) const
   {
     const glm::ivec3 index =
@@ -140,6 +173,9 @@ private:
   glm::ivec3 Dimensions;
   std::ptrdiff_t StrideY;
   std::ptrdiff_t StrideZ;
+  std::ptrdiff_t First; // of the held ones
+  glm::vec3 Low;        // positions that can be read are from here
+  glm::vec3 High;       // to here
 };
 
 // The first guess along one row of voxels: nodes blended across y and z once, so that a voxel costs
@@ -202,16 +238,15 @@ private:
 };
 
 template <typename T>
-std::vector<T> lowestValues(vtkDataArray* source)
+std::vector<T> numbersOf(const std::vector<double>& lowest)
 {
-  std::vector<T> lowest(source->GetNumberOfComponents());
-  for (int component = 0; component < source->GetNumberOfComponents(); ++component)
+  std::vector<T> numbers;
+  numbers.reserve(lowest.size());
+  for (const double value : lowest)
   {
-    double range[2];
-    source->GetFiniteRange(range, component);
-    lowest[component] = range[0] <= range[1] ? fromReal<T>(range[0]) : T(0);
+    numbers.push_back(std::isfinite(value) ? fromReal<T>(value) : T(0));
   }
-  return lowest;
+  return numbers;
 }
 
 // The array to read, and what it has outside.
@@ -222,18 +257,20 @@ struct Source
   std::vector<T> outside; // one value for each component
 };
 
-// Writes one row of the target; `index` is its first voxel in source indices.
+// Writes one row of the target; `index` is its first voxel. Positions count from the row's first
+// voxel in the whole volume, so that they are the same in each part.
 template <typename T>
-void resampleRow(
-  const Source<T>& source, const Resampling& how, OffsetRow& row, const glm::ivec3& index, T* out)
+void resampleRow(const Source<T>& source, const Resampling& how, OffsetRow& row,
+  const glm::ivec3& index, T* out, Lacking& lacking)
 {
   const Voxels<T>& voxels = source.voxels;
   const auto components = static_cast<std::ptrdiff_t>(source.outside.size());
   const ResampleGeometry& geometry = how.geometry;
   const BackwardMap& backward = how.backward;
   const glm::dvec3 lattice =
-    glm::dvec3(index) * geometry.latticeFromIndex + geometry.latticeOfFirst;
-  const int length = geometry.last.x - geometry.first.x + 1;
+    glm::dvec3(0, index.y, index.z) * geometry.latticeFromIndex + geometry.latticeOfFirst;
+  const int length = geometry.dimensions.x;
+  const int end = geometry.written.last.x + 1;
   const FieldNodes& nodes = backward.firstGuess.nodes;
   row.set(backward.firstGuess, static_cast<float>(lattice.y), static_cast<float>(lattice.z));
   const glm::vec3 indexFromCells(1.0 / geometry.latticeFromIndex);
@@ -243,57 +280,90 @@ void resampleRow(
     return static_cast<int>(
       glm::clamp((node - firstNode) / nodeStep, 0.0f, static_cast<float>(length)));
   };
-  const int moved = voxelOf(row.movedFrom());
-  const int still = std::max(std::min(voxelOf(row.movedTo()) + 2, length), moved);
-  out = std::copy_n(voxels.at(index), moved * components, out);
+  const int moved = glm::clamp(voxelOf(row.movedFrom()), index.x, end);
+  const int still = glm::clamp(voxelOf(row.movedTo()) + 2, moved, end);
+  out = std::copy_n(voxels.at(index), (moved - index.x) * components, out);
   for (int i = moved; i < still; ++i, out += components)
   {
     const glm::dvec3 deformed(lattice.x + i * geometry.latticeFromIndex.x, lattice.y, lattice.z);
     const glm::vec3 offset = backward.map.offsetInCells(deformed, row.at(firstNode + i * nodeStep));
-    const glm::vec3 position = glm::vec3(index.x + i, index.y, index.z) + offset * indexFromCells;
-    if (voxels.contains(position))
+    const glm::vec3 position = glm::vec3(i, index.y, index.z) + offset * indexFromCells;
+    const bool isInside = voxels.contains(position);
+    if (isInside && voxels.holds(position))
     {
       voxels.read(how.reading, position, out);
     }
     else
     {
+      lacking.add({ isInside ? voxels.around(position) : IndexBox{}, !isInside, false });
       std::copy(source.outside.begin(), source.outside.end(), out);
     }
   }
-  std::copy_n(voxels.at(index + glm::ivec3(still, 0, 0)), (length - still) * components, out);
+  std::copy_n(voxels.at({ still, index.y, index.z }), (end - still) * components, out);
 }
 
 template <typename T>
-void resampleTyped(vtkDataArray* array, vtkDataArray* target, const Resampling& how)
+Lacking resampleTyped(vtkDataArray* array, vtkDataArray* target, const std::vector<double>& outside,
+  const Resampling& how)
 {
   const ResampleGeometry& geometry = how.geometry;
   const int components = array->GetNumberOfComponents();
-  const Source<T> source{ { static_cast<const T*>(array->GetVoidPointer(0)), components,
-                            geometry.dimensions },
-    lowestValues<T>(array) };
+  const Source<T> source{ { static_cast<const T*>(array->GetVoidPointer(0)), components, geometry },
+    numbersOf<T>(outside) };
+  const glm::ivec3 size = geometry.written.size();
+  const glm::ivec3 targetSize = geometry.target.size();
   T* const out = static_cast<T*>(target->GetVoidPointer(0));
-  const glm::ivec3 size = geometry.last - geometry.first + 1;
-  const vtkIdType rows = static_cast<vtkIdType>(size.y) * size.z;
+  const auto outAt = [&](const glm::ivec3& index) {
+    const glm::ivec3 from = index - geometry.target.first;
+    const vtkIdType row = static_cast<vtkIdType>(from.z) * targetSize.y + from.y;
+    return out + (row * targetSize.x + from.x) * components;
+  };
+  const vtkIdType rows = size.x > 0 ? static_cast<vtkIdType>(size.y) * size.z : 0;
   const vtkIdType rowsAtOnce = std::max<vtkIdType>(rows / 20, 256); // between two progress reports
+  Lacking lacking;
+  std::mutex mutex;
   for (vtkIdType done = 0; done < rows; done += rowsAtOnce)
   {
     if (!how.proceed(static_cast<double>(done) / rows))
     {
-      return;
+      lacking.stopped = true;
+      return lacking;
     }
     const vtkIdType next = std::min(done + rowsAtOnce, rows);
     parallelFor(done, next, 64, [&](vtkIdType begin, vtkIdType end) {
       OffsetRow offsetRow;
+      Lacking ofRows;
       for (vtkIdType row = begin; row < end; ++row)
       {
-        const glm::ivec3 index = geometry.first +
+        const glm::ivec3 index = geometry.written.first +
           glm::ivec3(0, static_cast<int>(row % size.y), static_cast<int>(row / size.y));
-        resampleRow(
-          source, how, offsetRow, index, out + static_cast<std::size_t>(row) * size.x * components);
+        resampleRow(source, how, offsetRow, index, outAt(index), ofRows);
       }
+      const std::lock_guard<std::mutex> lock(mutex);
+      lacking.add(ofRows);
     });
   }
+  return lacking;
 }
+}
+
+void Lacking::add(const Lacking& other)
+{
+  this->voxels = enclosing(this->voxels, other.voxels);
+  this->outside = this->outside || other.outside;
+  this->stopped = this->stopped || other.stopped;
+}
+
+std::vector<double> lowestOf(vtkDataArray* array)
+{
+  std::vector<double> lowest;
+  for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+  {
+    double range[2];
+    array->GetFiniteRange(range, component);
+    lowest.push_back(range[0] <= range[1] ? range[0] : std::numeric_limits<double>::infinity());
+  }
+  return lowest;
 }
 
 BackwardMap::BackwardMap(const Lattice& lattice, int samples, Inverse inverse)
@@ -303,11 +373,14 @@ BackwardMap::BackwardMap(const Lattice& lattice, int samples, Inverse inverse)
   // Two samples: a tricubic that is zero at the 64 nodes of a lattice cell is zero within it.
 }
 
-void resample(vtkDataArray* source, vtkDataArray* target, const Resampling& how)
+Lacking resample(vtkDataArray* source, vtkDataArray* target, const std::vector<double>& outside,
+  const Resampling& how)
 {
+  Lacking lacking;
   switch (source->GetDataType())
   {
-    vtkTemplateMacro(resampleTyped<VTK_TT>(source, target, how));
+    vtkTemplateMacro(lacking = resampleTyped<VTK_TT>(source, target, outside, how));
   }
+  return lacking;
 }
 }

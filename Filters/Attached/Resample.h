@@ -4,6 +4,7 @@
 #ifndef BrainShift_Resample_h
 #define BrainShift_Resample_h
 
+#include "Filters/Deformation/FieldChange.h"
 #include "Filters/Deformation/PointMap.h"
 
 #include <functional>
@@ -12,17 +13,18 @@ class vtkDataArray;
 
 namespace brainshift
 {
-/** Which voxels to write, and their positions in the lattice. */
+/** Which voxels to read and to write, and their positions in the lattice. */
 struct ResampleGeometry
 {
-  glm::ivec3 dimensions{ 0 }; ///< of the whole source array: values along each axis
-  glm::ivec3 first{ 0 };      ///< region to write, in indices of the source
-  glm::ivec3 last{ 0 };       ///< inclusive
+  glm::ivec3 dimensions{ 0 }; ///< values of the whole volume along each axis
+  IndexBox held;              ///< the source array, in indices of the whole
+  IndexBox target;            ///< the target array
+  IndexBox written;           ///< the region to write; both arrays have it
 
   /** Lattice cells for each step of the index: lattice = index * this + latticeOfFirst. */
   glm::dvec3 latticeFromIndex{ 1.0 };
 
-  glm::dvec3 latticeOfFirst{ 0.0 }; ///< lattice coordinates of the source's first value
+  glm::dvec3 latticeOfFirst{ 0.0 }; ///< lattice coordinates of the whole's first value
 };
 
 /** The backward map of a lattice for many points: exact, and quick where nothing moves. */
@@ -56,14 +58,31 @@ struct Resampling
   std::function<bool(double)> proceed;
 };
 
+/** What a region lacked. */
+struct Lacking
+{
+  IndexBox voxels;      ///< what to hold so that none is missing; empty: none was
+  bool outside = false; ///< whether tissue came from outside the volume
+  bool stopped = false; ///< whether `proceed` said stop
+
+  void add(const Lacking& other);
+};
+
 /**
- * Fills an array with the source as it is seen at each voxel of the region, which is the source at
- * restFromDeformed of that voxel. Outside the source its lowest value holds.
- *
- * @param target   allocated: the region's tuples, x fastest, with the type and the components of
- *                 `source`
+ * The lowest finite value of each component of an array; infinity where there is none. Together
+ * those of parts are those of the whole.
  */
-void resample(vtkDataArray* source, vtkDataArray* target, const Resampling& how);
+std::vector<double> lowestOf(vtkDataArray* array);
+
+/**
+ * Fills a region of an array with the source as it is seen at each voxel, which is the source at
+ * restFromDeformed of that voxel. The numbers of a part are those of the whole, bit for bit.
+ *
+ * @param target    allocated, with the type and the components of `source`
+ * @param outside   for each component, what holds outside the volume: lowestOf the whole array
+ */
+Lacking resample(vtkDataArray* source, vtkDataArray* target, const std::vector<double>& outside,
+  const Resampling& how);
 }
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/ImageParts.h"
 #include "Formats/Files/Text.h"
 #include "Formats/OMEZarr/PyramidStore.h"
 #include "Formats/Volumes/OutgoingVolume.h"
@@ -69,36 +70,6 @@ std::vector<Piece> piecesOf(const int whole[6], double bytesOfVoxel, double limi
     }
   }
   return pieces;
-}
-
-double bytesOfVoxel(vtkInformation* input)
-{
-  vtkInformation* scalars = vtkDataObject::GetActiveFieldInformation(
-    input, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-  constexpr double Most = 8.0;
-  if (!scalars || !scalars->Has(vtkDataObject::FIELD_ARRAY_TYPE()))
-  {
-    return Most;
-  }
-  const int components = scalars->Has(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS())
-    ? scalars->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS())
-    : 1;
-  return std::max(1, components) *
-    static_cast<double>(
-      std::max(1, vtkDataArray::GetDataTypeSize(scalars->Get(vtkDataObject::FIELD_ARRAY_TYPE()))));
-}
-
-// The grid of all voxels, of which an image has some.
-Grid wholeGridOf(vtkImageData* image, const int whole[6], bool isLPS)
-{
-  vtkNew<vtkImageData> all;
-  all->SetExtent(const_cast<int*>(whole));
-  all->SetOrigin(image->GetOrigin());
-  all->SetSpacing(image->GetSpacing());
-  all->SetDirectionMatrix(image->GetDirectionMatrix());
-  Grid grid = gridOf(all);
-  withBeginning("The input's ", [&] { throwIfAny(problemOfGrid(grid)); });
-  return isLPS ? withReversedXY(grid) : grid;
 }
 
 // The numbers of a piece in an image that may have more.
@@ -193,7 +164,7 @@ void vtkOMEZarrWriter::AskForPiece()
     this->Work = std::make_unique<Run>();
     input->Get(SDDP::WHOLE_EXTENT(), this->Work->whole.data());
     this->Work->pieces =
-      piecesOf(this->Work->whole.data(), bytesOfVoxel(input), this->MemoryLimit * BytesInMiB);
+      piecesOf(this->Work->whole.data(), bytesOfPoint(input), this->MemoryLimit * BytesInMiB);
   }
   if (this->Work->next < this->Work->pieces.size())
   {
@@ -295,9 +266,7 @@ void vtkOMEZarrWriter::Begin(const OutgoingVolume& volume)
   throwIfAny(this->FileName.empty() ? "The name of the store to write is missing" : "");
   auto* image = vtkImageData::SafeDownCast(this->GetInput());
   PyramidContent content;
-  const bool isLPS = this->World == int(WorldAxes::LPS) ||
-    (this->World == int(WorldAxes::Unknown) && worldAxesOf(image) == WorldAxes::LPS);
-  content.grid = wholeGridOf(image, this->Work->whole.data(), isLPS);
+  content.grid = outgoingGrid(image, this->Work->whole.data(), static_cast<WorldAxes>(this->World));
   content.type = volume.numbers->GetDataType();
   content.components = volume.components();
   content.knowsSides = volume.knowsSides;

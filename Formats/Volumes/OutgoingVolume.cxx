@@ -3,6 +3,7 @@
 
 #include "Common/FieldWord.h"
 #include "Common/ImageGrid.h"
+#include "Common/ImageParts.h"
 #include "Common/LabelTable.h"
 #include "Formats/Files/Text.h"
 
@@ -171,8 +172,7 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   {
     throw Problem("The input has no voxels");
   }
-  volume.grid = gridOf(image);
-  withBeginning("The input's ", [&] { throwIfAny(problemOfGrid(volume.grid)); });
+  volume.grid = outgoingGrid(image, image->GetExtent(), world);
   takeNumbers(array, volume, warning);
   const bool areScalars = array == image->GetPointData()->GetScalars();
   volume.isLabelMap = areScalars && isLabelMap(image);
@@ -182,15 +182,19 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   }
   const WorldAxes axes = world == WorldAxes::Unknown ? worldAxesOf(image) : world;
   volume.knowsSides = axes != WorldAxes::Unknown;
-  if (axes == WorldAxes::LPS)
-  {
-    volume.grid = withReversedXY(volume.grid);
-  }
   if (!volume.knowsSides)
   {
     warning += std::string(warning.empty() ? "" : ". ") + UnknownSidesWritten +
       ". Set World if you know the axes";
   }
+}
+
+Grid outgoingGrid(vtkImageData* image, const int extent[6], WorldAxes world)
+{
+  const Grid grid = gridOf(image, extent);
+  withBeginning("The input's ", [&] { throwIfAny(problemOfGrid(grid)); });
+  const WorldAxes axes = world == WorldAxes::Unknown ? worldAxesOf(image) : world;
+  return axes == WorldAxes::LPS ? withReversedXY(grid) : grid;
 }
 
 std::string noteOfTimes(vtkImageData* image, vtkInformation* pipeline, const std::string& container)

@@ -79,6 +79,14 @@ VTKBRAINSHIFTFORMATS_EXPORT void takeOut(vtkImageData* image, const std::string&
   WorldAxes world, OutgoingVolume& volume, std::string& warning);
 
 /**
+ * The grid of an extent of an image, in RAS. Throws a sentence if no file can hold it.
+ *
+ * @param extent   the whole one, of which the image may have a part
+ * @param world    as in takeOut
+ */
+Grid outgoingGrid(vtkImageData* image, const int extent[6], WorldAxes world);
+
+/**
  * What a container of one time, "file" or "store", leaves out of several: a sentence, without a
  * full stop. Empty: nothing.
  */

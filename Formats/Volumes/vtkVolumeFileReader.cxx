@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/ImageParts.h"
 #include "Common/SharedArray.h"
 #include "Common/WorldAxes.h"
 #include "Formats/Volumes/FinerLevels.h"
@@ -423,6 +424,7 @@ int vtkVolumeFileReader::readHeader(vtkInformation* output)
   }
   brainshift::announce(output, this->Stored->geometry().grid);
   output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  brainshift::announceReadingAll(output, !this->File->readsParts());
   vtkDataObject::SetPointDataActiveScalarInfo(
     output, this->Stored->scalarType(), this->Stored->header().components);
   announceTimes(output, this->Stored->header().times);

@@ -357,17 +357,25 @@ private:
 using Written = std::function<void(double fraction)>;
 
 // Hands the sink all numbers in pieces.
-void writeAll(const OutgoingVolume& volume, const Written& written, ByteSink& sink)
+void writeAll(
+  const OutgoingVolume& volume, const VolumeLayers& layers, const Written& written, ByteSink& sink)
 {
-  const char* next = volume.bytes();
-  std::size_t left = volume.bytesOfVolume();
-  while (left > 0)
+  const auto all = static_cast<double>(volume.bytesOfVolume());
+  double done = 0.0;
+  for (std::size_t number = 0; number < layers.count; ++number)
   {
-    const std::size_t piece = std::min(left, PieceBytes);
-    sink.write(next, piece);
-    next += piece;
-    left -= piece;
-    written(1.0 - static_cast<double>(left) / volume.bytesOfVolume());
+    const OutgoingVolume part = layers.bring(number);
+    const char* next = part.bytes();
+    std::size_t left = part.bytesOfVolume();
+    while (left > 0)
+    {
+      const std::size_t piece = std::min(left, PieceBytes);
+      sink.write(next, piece);
+      next += piece;
+      left -= piece;
+      done += static_cast<double>(piece);
+      written(done / all);
+    }
   }
 }
 
@@ -397,8 +405,19 @@ void writeParted(const OutgoingVolume& volume, const Written& written, ByteSink&
 }
 }
 
+bool partsComponents(const std::string& fileName, const OutgoingVolume& volume)
+{
+  return contentsOf(fileName, volume).partsVoxels;
+}
+
 void writeVolume(
   const std::string& fileName, const OutgoingVolume& volume, const Progress& progress)
+{
+  writeLayers(fileName, volume, { 1, [&](std::size_t) { return volume; } }, progress);
+}
+
+void writeLayers(const std::string& fileName, const OutgoingVolume& volume,
+  const VolumeLayers& layers, const Progress& progress)
 {
   requireSize(fileName, volume);
   const Contents contents = contentsOf(fileName, volume);
@@ -413,7 +432,14 @@ void writeVolume(
   writeWhole(fileName, [&](const std::string& beside) {
     ByteSink sink(beside, contents.isPacked);
     sink.write(contents.header.data(), contents.header.size());
-    (contents.partsVoxels ? writeParted : writeAll)(volume, written, sink);
+    if (contents.partsVoxels)
+    {
+      writeParted(volume, written, sink);
+    }
+    else
+    {
+      writeAll(volume, layers, written, sink);
+    }
     sink.close();
   });
 }

@@ -12,7 +12,8 @@
  * its world were RAS, with a warning. Warnings say what the file does not hold: other times of the
  * input, and names of labels.
  *
- * On several MPI ranks each gets all of the image, and the first one writes it.
+ * A large image is asked for in layers, one part after the other. A DICOM series, a NIfTI file of
+ * several components, and several MPI ranks get all of it at once; the first rank writes it.
  */
 #ifndef vtkVolumeFileWriter_h
 #define vtkVolumeFileWriter_h
@@ -20,7 +21,14 @@
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 #include "vtkWriter.h"
 
+#include <array>
 #include <string>
+#include <vector>
+
+namespace brainshift
+{
+struct OutgoingVolume;
+}
 
 class VTKBRAINSHIFTFORMATS_EXPORT vtkVolumeFileWriter : public vtkWriter
 {
@@ -30,6 +38,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int ModifyRequest(vtkInformation* request, int when) override;
 
   enum WorldType
   {
@@ -65,6 +74,12 @@ public:
   vtkGetMacro(World, int);
   ///@}
 
+  ///@{
+  /** An image of more MiB is asked for in layers of so many MiB, at least one layer. Default: 512. */
+  vtkSetClampMacro(MemoryLimit, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MemoryLimit, double);
+  ///@}
+
   /**
    * Why the last run wrote no file: one sentence, without a full stop. Empty if it wrote the file.
    * A file that was there before then stays as it was.
@@ -83,11 +98,15 @@ private:
   void operator=(const vtkVolumeFileWriter&) = delete;
 
   void WriteImage();
+  bool IsInLayers();
+  std::vector<std::array<int, 6>> Layers();
+  brainshift::OutgoingVolume TakeLayers(const std::array<int, 6>& extent);
 
   std::string FileName;
   std::string Like;
   std::string PointArray;
   int World = AsTheVolumeSays;
+  double MemoryLimit = 512.0; // MiB
   std::string Problem = "Nothing was written";
 };
 

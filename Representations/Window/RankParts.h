@@ -7,16 +7,15 @@
 #ifndef BrainShift_RankParts_h
 #define BrainShift_RankParts_h
 
+#include "Common/ImageParts.h"
 #include "Common/RankAgreement.h"
-#include "Common/SharedVolume.h"
+#include "Filters/Attached/RestExtent.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 #include <vector>
 
 namespace brainshift
 {
-struct Lattice;
-
 /// What one rank draws of the deformed frame.
 struct DrawnPart
 {
@@ -67,19 +66,9 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT Box withoutOuterSides(const Box& part, const
 /** The smallest box that holds two. */
 Box around(const Box& a, const Box& b);
 
-/**
- * Where the tissue rests that can come into a part of the deformed frame: an extent within that of
- * the volume, of two points a side at least. It holds the neighbours that interpolation and
- * gradients read.
- *
- * @param lattice   the deformation; null: nothing moves
- * @param haloMm    is added to every side, mm
- */
+/** restExtent of a box (mm, world axes). */
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT Extent restExtent(
   const WholeVolume& volume, const Lattice* lattice, const Box& part, double haloMm);
-
-/// Whether an extent holds all of another.
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool holds(const Extent& extent, const Extent& other);
 }
 
 #endif

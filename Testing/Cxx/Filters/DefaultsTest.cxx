@@ -76,7 +76,8 @@ TEST(Defaults, OfCompareVolumesLiveInTheClass)
 TEST(Defaults, OfBakeDeformationLiveInTheClass)
 {
   vtkNew<vtkBakeDeformation> filter;
-  const Defaults expected{ { "Interpolation", { double(filter->GetInterpolation()) } } };
+  const Defaults expected{ { "Interpolation", { double(filter->GetInterpolation()) } },
+    { "MemoryLimit", { filter->GetMemoryLimit() } } };
   EXPECT_EQ(defaultsIn("Filters/Proxies/BakeDeformation.xml"), expected);
 }
 
@@ -271,9 +272,11 @@ TEST(Defaults, OfSurfaceFilesLiveInTheClasses)
 TEST(Defaults, OfVolumeFilesLiveInTheClass)
 {
   vtkNew<vtkVolumeFileWriter> writer;
-  const Defaults expected{ { "World", { double(writer->GetWorld()) } } };
-  EXPECT_EQ(defaultsIn("Formats/Writers/MedicalVolumeWriter.xml"), expected);
-  EXPECT_EQ(defaultsIn("Formats/Writers/MedicalSeriesWriter.xml"), expected);
+  const Defaults ofSeries{ { "World", { double(writer->GetWorld()) } } };
+  EXPECT_EQ(defaultsIn("Formats/Writers/MedicalSeriesWriter.xml"), ofSeries);
+  const Defaults ofVolumes{ { "World", { double(writer->GetWorld()) } },
+    { "MemoryLimit", { writer->GetMemoryLimit() } } };
+  EXPECT_EQ(defaultsIn("Formats/Writers/MedicalVolumeWriter.xml"), ofVolumes);
   vtkNew<vtkOMEZarrWriter> pyramids;
   const Defaults ofPyramids{ { "World", { double(pyramids->GetWorld()) } },
     { "Version", { double(pyramids->GetVersion()) } },

@@ -4,11 +4,15 @@
     pvpython large_store.py make FOLDER 2048 2048 1024 uint16   # 8 GiB
     pvpython large_store.py make FOLDER 2048 1024 1025 uint8    # more than 2^31 voxels
     pvpython large_store.py judge FOLDER
+    pvpython large_store.py bake FOLDER BAKED.zarr 128 [whole]  # MiB of a piece
 
 The head of the tests is stretched over the size (x, y, z) and gets noise of 4 bits, so that it does
 not pack better than a scan. `judge` reads what fits each Memory Limit, and boxes of 96 voxels at
 random places and in the last corner at level 0, each in a process that is measured, and compares
-them with zarr-python. No test runs it: the build server has neither the time nor the disk.
+them with zarr-python. `bake` bends level 0 in the middle and at a corner, writes it piece by piece, and
+compares boxes with what numpy reads where the tissue rests; with `whole` also every voxel with a
+bake of the whole, which needs the memory. No test runs it: the build server has neither the time
+nor the disk.
 """
 
 import json
@@ -234,6 +238,138 @@ def judge(folder):
     return 1 if wrong else 0
 
 
+def bent(volume, size, voxel):
+    """The volume with tissue that moves in the middle, and at a corner from outside."""
+    import brainshift
+    from paraview import simple
+    middle = [voxel * side / 2 for side in size]
+    reach = 0.3 * voxel * min(size)
+    strokes = brainshift.soft(middle, (0.1 * reach, 0.05 * reach, -0.15 * reach), reach)
+    strokes += brainshift.soft((0, 0, 0), (0.05 * reach,) * 3, 0.3 * reach)
+    return simple.FreeFormDeformation(Input=volume, Strokes=strokes)
+
+
+def written(folder, out, limit):
+    """In a process of its own: bakes and writes."""
+    from brainshift_testing import load_plugin
+    load_plugin()
+    from paraview import servermanager, simple
+    size, voxel = size_of(folder)
+    before = resource.getrusage(resource.RUSAGE_SELF)
+    start = time.time()
+    reader = simple.OMEZarrReader(FileName=folder, Level=0)
+    writer = servermanager.writers.OMEZarrWriter(
+        Input=simple.BakeDeformation(Input=bent(reader, size, voxel)), FileName=out,
+        MemoryLimit=float(limit))
+    writer.UpdatePipeline()
+    writer.SMProxy.UpdatePropertyInformation()
+    after = resource.getrusage(resource.RUSAGE_SELF)
+    print(json.dumps({
+        "problem": writer.GetPropertyValue("Problem"), "seconds": round(time.time() - start, 1),
+        "processor": round(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 1),
+        "resident MiB": round(after.ru_maxrss / 1024), "of it before": before.ru_maxrss // 1024}))
+
+
+def size_of(folder):
+    """Voxels along x, y, z of level 0, and the side of one, mm."""
+    with open(os.path.join(folder, "0", ".zarray"), encoding="utf-8") as file:
+        return json.load(file)["shape"][::-1], 0.1
+
+
+def placed(size, voxel):
+    """An image of the size without any numbers: its deformation is that of the store."""
+    from paraview import simple
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+    image = vtkImageData()
+    image.SetDimensions(size)
+    image.SetSpacing([voxel] * 3)
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(image)
+    return source
+
+
+def linear(array, at):
+    """The numbers of a zarr array at positions (N x 3: x, y, z; voxels), 0 outside."""
+    at = at[:, ::-1]
+    last = numpy.array(array.shape) - 1
+    inside = ((at > -1e-3) & (at < last + 1e-3)).all(1)
+    at = numpy.clip(at, 0, last)
+    low = numpy.minimum(at.astype(int), last - 1)
+    first = low.min(0)
+    part = array[tuple(slice(a, b + 2) for a, b in zip(first, low.max(0)))].astype(float)
+    result = numpy.zeros(len(at))
+    for corner in numpy.ndindex(2, 2, 2):
+        weight = numpy.abs(1 - numpy.array(corner) - (at - low)).prod(1)
+        result += weight * part[tuple((low - first + corner).T)]
+    return result, inside
+
+
+def compared(folder, out):
+    """Boxes against numpy: how many voxels differ by more than rounding, of how many that moved."""
+    from brainshift_testing import load_plugin
+    load_plugin()
+    import brainshift
+    import zarr
+    size, voxel = size_of(folder)
+    filter = bent(placed(size, voxel), size, voxel)
+    source = zarr.open_array(os.path.join(folder, "0"), mode="r")
+    baked = zarr.open_array(os.path.join(out, "0"), mode="r")
+    random = numpy.random.default_rng(41)
+    side = 20
+    firsts = [(0, 0, 0), tuple(n - side for n in size), tuple(n // 2 - side for n in size)]
+    firsts += [tuple(int(n * random.uniform(0.3, 0.7)) for n in size) for _ in range(30)]
+    wrong = moved = outside = 0
+    for first in firsts:
+        box = [numpy.arange(a, a + side) for a in first]
+        z, y, x = numpy.meshgrid(*box[::-1], indexing="ij")
+        places = numpy.stack([x.ravel(), y.ravel(), z.ravel()], 1)
+        rest = brainshift.rest_from_deformed(filter, places * voxel) / voxel
+        expected, inside = linear(source, rest)
+        found = baked[tuple(slice(a, a + side) for a in first[::-1])].ravel().astype(float)
+        lowest = 0  # of this head
+        differs = numpy.where(inside, numpy.abs(found - expected) > 0.75, found != lowest)
+        wrong += int(differs.sum())
+        outside += int((~inside).sum())
+        moved += int((numpy.abs(rest - places).max(1) > 0.5).sum())
+    print(json.dumps({"wrong": wrong, "moved": moved, "from outside": outside,
+                      "of": len(firsts) * side ** 3}))
+
+
+def against_whole(folder, out):
+    """Every voxel against a bake of the whole."""
+    from brainshift_testing import load_plugin
+    load_plugin()
+    import zarr
+    from paraview import simple
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    size, voxel = size_of(folder)
+    start = time.time()
+    reader = simple.OMEZarrReader(FileName=folder, Level=0)
+    own = simple.BakeDeformation(Input=bent(reader, size, voxel)).GetClientSideObject()
+    own.UpdateWholeExtent()
+    took = time.time() - start
+    whole = vtk_to_numpy(own.GetOutput().GetPointData().GetScalars()).reshape(size[::-1])
+    baked = zarr.open_array(os.path.join(out, "0"), mode="r")
+    different = sum(int((whole[z:z + CHUNK] != baked[z:z + CHUNK]).sum())
+                    for z in range(0, size[2], CHUNK))
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    print(json.dumps({"different": different, "of": whole.size, "seconds": round(took, 1),
+                      "resident MiB": round(used.ru_maxrss / 1024)}))
+
+
+def run(*words):
+    """A command of this file in a process of its own."""
+    subprocess.run([os.environ.get("PVPYTHON", "pvpython"), __file__, *words], check=True)
+
+
+def bake(folder, out, limit, *words):
+    run("written", folder, out, limit)
+    run("compared", folder, out)
+    if words:
+        run("against_whole", folder, out)
+
+
 if __name__ == "__main__":
-    sys.exit({"make": make, "judge": judge}[sys.argv[1]](*sys.argv[2:])
+    commands = (make, judge, bake, written, compared, against_whole)
+    sys.exit({one.__name__: one for one in commands}[sys.argv[1]](*sys.argv[2:])
              if sys.argv[1] != "one" else one(sys.argv[2], json.loads(sys.argv[3])))
