@@ -74,6 +74,10 @@ public:
   /// Sets the property Live of a fit (null: nothing): whether the user is dragging a measurement.
   /// The undo stack does not see it.
   static void setLive(vtkSMProxy* fit, bool on);
+  /// Ends an edit and a run under way, so that the Lattice is the one that an edit follows. Each
+  /// edit does this first; call it before you read a list to change it. Returns whether the Lattice
+  /// is another one now.
+  bool claim();
   /// One undo step that makes the fit, if there is none, and calls `change` to set its properties.
   void edit(const QString& label, const std::function<void(vtkSMProxy*)>& change);
   /// Replaces a list in one undo step.
@@ -96,8 +100,9 @@ public:
 Q_SIGNALS:
   /// The fit was added or removed, or one of its properties changed.
   void changed();
-  /// An edit began or ended.
-  void editing(bool on);
+  /// An edit is about to read and change the measurements: a run that has put another Lattice there
+  /// ends now.
+  void aboutToEdit();
   /// The views show the present state of the edit.
   void drawn();
 

@@ -263,6 +263,7 @@ std::vector<PointPair> LandmarkList::picked() const
 
 void LandmarkList::add(const glm::dvec3& rest, const glm::dvec3& measured)
 {
+  this->Editor->claim();
   std::vector<PointPair> pairs = this->picked();
   pairs.push_back({ rest, measured, 1.0 });
   this->Editor->replace("LandmarkPairs", numbersFrom(pairs), tr("Add Landmark Pair"));
