@@ -102,6 +102,11 @@ QString Pointer::replay(const QString& path)
 void Pointer::start(std::unique_ptr<PoseSource> source)
 {
   this->close();
+  if (this->Own)
+  {
+    this->Registration = std::move(*this->Own);
+    this->Own.reset();
+  }
   this->Source = std::move(source);
   this->State = this->Source->state();
   this->Replayed = false;

@@ -99,7 +99,7 @@ private:
   std::optional<double> Distance;
   std::optional<double> Threshold;
   TrackerRegistration Registration;
-  std::optional<TrackerRegistration> Own; ///< During a replay: that of the live tracker.
+  std::optional<TrackerRegistration> Own; ///< Since a replay: that of the live tracker.
   std::deque<Pose> Last;                  ///< Those that a touch takes the mean of.
   PointerTrace Trace;
   TipDistance Cortex;

@@ -361,6 +361,7 @@ void PointerDock::toggleConnection()
 void PointerDock::save()
 {
   QFileDialog dialog(this, tr("Save Session"), {}, tr("Pointer sessions (*.txt)"));
+  dialog.setObjectName("BrainShiftPointerSession");
   dialog.setAcceptMode(QFileDialog::AcceptSave); // it confirms before it replaces a file
   dialog.setDefaultSuffix(QStringLiteral("txt"));
   if (dialog.exec() == QDialog::Accepted)
@@ -371,11 +372,12 @@ void PointerDock::save()
 
 void PointerDock::replay()
 {
-  const QString path = QFileDialog::getOpenFileName(
-    this, tr("Replay Session"), {}, tr("Pointer sessions (*.txt);;All files (*)"));
-  if (!path.isEmpty())
+  QFileDialog dialog(this, tr("Replay Session"), {}, tr("Pointer sessions (*.txt);;All files (*)"));
+  dialog.setObjectName("BrainShiftPointerSession");
+  dialog.setFileMode(QFileDialog::ExistingFile);
+  if (dialog.exec() == QDialog::Accepted)
   {
-    this->report(Pointer::instance()->replay(path));
+    this->report(Pointer::instance()->replay(dialog.selectedFiles().front()));
   }
 }
 

@@ -2,7 +2,7 @@
 """Proves the live pointer in the window: its dock is closed until it is asked for; it hears a
 server on loopback, draws the tip over a picture that is not cast anew, and tells the distance that
 Trace Distance tells. Held down, the key T records a trace that bends the brain, as one undo step.
-A server that dies gives one sentence.
+A server that dies gives one sentence. A replay leaves the live tracker its registration.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
@@ -15,7 +15,7 @@ import brainshift
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import ball, show_volume, volume
+from brainshift_testing import ball, scratch, show_volume, volume
 from paraview import simple
 
 MIDDLE, RADIUS = numpy.array((16.0, 16.0, 16.0)), 9.0
@@ -305,6 +305,41 @@ def server_that_dies_gives_one_sentence():
     assert hand.label("BrainShiftPointerStatus") == "Not connected"
 
 
+def session_of(shift):
+    """A file of a pointer that rests for a minute. Its registration is a shift (mm)."""
+    path = scratch("pointer-session.txt")
+    pose = (1, 0, 0, MIDDLE[0], 0, 1, 0, MIDDLE[1], 0, 0, 1, MIDDLE[2])
+    placed = (1, 0, 0, shift[0], 0, 1, 0, shift[1], 0, 0, 1, shift[2])
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("# BrainShift pointer session 1\n")
+        file.write("\t".join(["# image from tracker", *map(str, placed)]) + "\n")
+        for i in range(600):
+            file.write("\t".join([str(i / 10), "StylusToReference", *map(str, pose)]) + "\n")
+    return path
+
+
+def replay(shift):
+    hand.answer_path("BrainShiftPointerSession", session_of(shift))
+    assert hand.click("BrainShiftPointerReplay")
+    words = "Tip at {:.1f} {:.1f} {:.1f} mm".format(*(MIDDLE + shift))
+    until(lambda: hand.label("BrainShiftPointerPlace") == words, words)
+    assert "as in the saved session" in hand.label("BrainShiftPointerRegistration")
+
+
+def live_tracker_keeps_its_registration():
+    """Whatever was replayed in between: here it has none."""
+    for shift in ((5.0, 0.0, 3.0), (0.0, 4.0, 2.0)):
+        replay(shift)
+    window.server = Server()
+    assert hand.click("BrainShiftPointerConnect")  # ends the replay
+    assert hand.type_into("BrainShiftPointerPort", window.server.port)
+    assert hand.click("BrainShiftPointerConnect")
+    until(lambda: "Hz" in hand.label("BrainShiftPointerStatus"), "poses after a replay")
+    window.server.go(MIDDLE + (1, 2, 14))
+    assert "Not registered" in hand.label("BrainShiftPointerRegistration")
+    assert hand.click("BrainShiftPointerConnect")
+
+
 def play():
     yield (begin,)
     yield (dock_is_closed_at_first,)
@@ -318,6 +353,7 @@ def play():
     yield (is_one_step_to_undo,)
     yield (undo_of_a_second_trace_leaves_the_first,)
     yield (server_that_dies_gives_one_sentence,)
+    yield (live_tracker_keeps_its_registration,)
 
 
 if __name__ == "__main__":
