@@ -68,6 +68,7 @@ void Pointer::forget(pqPipelineSource* source)
 {
   if (this->Trace.isRecording() && source == this->Trace.deformation())
   {
+    this->HeldByKey = false;
     this->Trace.abandon(); // nothing may be made for what goes
     this->Drawing.setTrace({});
   }
@@ -281,6 +282,7 @@ QString Pointer::record(bool on)
   }
   else
   {
+    this->HeldByKey = false;
     this->Trace.end();
     this->Drawing.setTrace({}); // its source is shown now
   }
@@ -303,7 +305,7 @@ QString Pointer::saveSession(const QString& path) const
 bool Pointer::eventFilter(QObject* watched, QEvent* event)
 {
   const QEvent::Type type = event->type();
-  if (type == QEvent::ApplicationDeactivate)
+  if (type == QEvent::ApplicationDeactivate && this->HeldByKey)
   {
     this->record(false); // another window receives the key's release
   }
@@ -313,8 +315,8 @@ bool Pointer::eventFilter(QObject* watched, QEvent* event)
   }
   auto key = static_cast<QKeyEvent*>(event);
   const KeyCommand found = commandOfKey({ Scope::Window }, key->key());
-  const bool held = key->modifiers() == Qt::NoModifier && !isTyping();
-  if (found.command != Command::RecordTrace || !(held || this->Trace.isRecording()))
+  const bool begins = key->modifiers() == Qt::NoModifier && !isTyping();
+  if (found.command != Command::RecordTrace || !(begins || this->HeldByKey))
   {
     return QObject::eventFilter(watched, event);
   }
@@ -322,9 +324,15 @@ bool Pointer::eventFilter(QObject* watched, QEvent* event)
   {
     event->accept(); // or a shortcut of the window comes first
   }
-  else if (!key->isAutoRepeat())
+  else if (type == QEvent::KeyPress && !key->isAutoRepeat() && !this->Trace.isRecording())
   {
-    Q_EMIT this->recordHandled(this->record(type == QEvent::KeyPress));
+    const QString problem = this->record(true);
+    this->HeldByKey = this->Trace.isRecording();
+    Q_EMIT this->recordHandled(problem);
+  }
+  else if (type == QEvent::KeyRelease && !key->isAutoRepeat() && this->HeldByKey)
+  {
+    Q_EMIT this->recordHandled(this->record(false));
   }
   return true;
 }

@@ -102,6 +102,7 @@ private:
   std::optional<TrackerRegistration> Own; ///< Since a replay: that of the live tracker.
   std::deque<Pose> Last;                  ///< Those that a touch takes the mean of.
   PointerTrace Trace;
+  bool HeldByKey = false; ///< The key began the trace, so its release ends it.
   TipDistance Cortex;
   TipDrawing Drawing;
   QTimer Draining;

@@ -277,6 +277,16 @@ def focus():
     _library.test_hand_focus()
 
 
+def focus_on(name):
+    """Gives a field of the window the keyboard; whether it has it."""
+    return bool(_library.test_hand_focus_on(name.encode()))
+
+
+def deactivate():
+    """Another window of the desktop gets the keyboard."""
+    _library.test_hand_deactivate()
+
+
 def has_focus():
     """Whether the view has the keyboard."""
     return bool(_library.test_hand_has_focus())

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves the live pointer in the window: its dock is closed until it is asked for; it hears a
 server on loopback, draws the tip over a picture that is not cast anew, and tells the distance that
-Trace Distance tells. Held down, the key T records a trace that bends the brain, as one undo step.
-A server that dies gives one sentence. A replay leaves the live tracker its registration.
+Trace Distance tells. Held down, the key T records a trace that bends the brain, as one undo step;
+the button records until it is pressed again. A server that dies gives one sentence. A replay leaves
+the live tracker its registration.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
@@ -292,6 +293,32 @@ def undo_of_a_second_trace_leaves_the_first():
         assert displacement() == moved, (name, displacement(), moved)
 
 
+def button_records_until_it_is_pressed_again():
+    """Neither another window nor a letter that is typed ends it."""
+    def is_recording():
+        return "Recording" in hand.label("BrainShiftPointerRecorded")
+
+    assert hand.click("BrainShiftPointerRecord")
+    until(is_recording, "recording")
+    hand.deactivate()
+    hand.wait(200)
+    assert is_recording(), "another window ended it"
+    assert hand.focus_on("BrainShiftStrengthSpinBox")
+    assert hand.type_into("BrainShiftStrengthSpinBox", "t1")
+    hand.wait(200)
+    assert is_recording(), "a letter ended it"
+    assert hand.click("BrainShiftPointerRecord")
+    until(lambda: not is_recording(), "an end")
+    # The key is let go over there.
+    hand.hover([50, 50])
+    hand.focus()
+    hand.key_down(KEY_T)
+    until(is_recording, "recording")
+    hand.deactivate()
+    until(lambda: not is_recording(), "an end")
+    hand.key_up(KEY_T)
+
+
 def server_that_dies_gives_one_sentence():
     window.server.alive = False
     until(lambda: hand.label("BrainShiftPointerStatus") == "The server closed the connection.",
@@ -352,6 +379,7 @@ def play():
     yield (records_while_the_key_is_down,)
     yield (is_one_step_to_undo,)
     yield (undo_of_a_second_trace_leaves_the_first,)
+    yield (button_records_until_it_is_pressed_again,)
     yield (server_that_dies_gives_one_sentence,)
     yield (live_tracker_keeps_its_registration,)
 
