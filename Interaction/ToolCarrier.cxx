@@ -54,10 +54,7 @@ ToolCarrier::ToolCarrier(QObject* parent)
   this->Settle.setInterval(SettleMs);
   QObject::connect(&this->Settle, &QTimer::timeout, this, [this] {
     this->HandNow = this->HandNow == Hand::Zooming ? Hand::Hovering : this->HandNow;
-    if (this->tool() && !this->isHolding())
-    {
-      this->Held->settle();
-    }
+    this->settle();
   });
   QObject::connect(&this->Cursor, &CursorWatch::moved, this, &ToolCarrier::followCursor);
   QObject::connect(&this->Resting, &RestingCursor::sees, this, &ToolCarrier::hoverAgain);
@@ -441,6 +438,14 @@ void ToolCarrier::stepSlices(int voxels)
   {
     this->Resting.signalAfterPicture();
     slices->step(voxels);
+  }
+}
+
+void ToolCarrier::settle()
+{
+  if (this->tool() && !this->isHolding())
+  {
+    this->Held->settle();
   }
 }
 

@@ -67,6 +67,8 @@ public:
   void hoverAgain(); ///< As if the cursor came to where it is.
   void stepSlices(int voxels);
   void cancel();
+  /// Ends a burst of wheel clicks, so that it is on the undo stack. A drag goes on.
+  void settle();
   /// Shows a volume as loaded, until it is called with null.
   void showBefore(StrokeEditor* editor);
   bool showsBefore() const { return !this->ShowingBefore.isNull(); }
