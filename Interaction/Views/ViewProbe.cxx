@@ -198,7 +198,7 @@ std::vector<ControlPoint> ViewProbe::controlPointsNear(
 std::vector<ControlPoint> ViewProbe::controlPointsUnder(const glm::dvec2& pixel, double pixels)
 {
   pqDataRepresentation* display = bentDisplay(this->Deformation, this->View);
-  if (display && showsSlices(display))
+  if (!display || showsSlices(display))
   {
     return {}; // beside a slice are no control points of it
   }

@@ -91,7 +91,8 @@ public:
   /// Control points within `radius` (mm) of a spot, and moved ones within `movedRadius`. In a
   /// slice, only those near the slice.
   std::vector<ControlPoint> controlPointsNear(const Spot& spot, double radius, double movedRadius);
-  /// Control points within `pixels` of the line of sight through a pixel. None in views of slices.
+  /// Control points within `pixels` of the line of sight through a pixel. None in views of slices,
+  /// and where the volume is not shown.
   std::vector<ControlPoint> controlPointsUnder(const glm::dvec2& pixel, double pixels);
 
   /// Rest position of tissue from its drawn position. None before the filter was applied.

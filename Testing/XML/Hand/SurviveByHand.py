@@ -104,10 +104,7 @@ def hidden():
     def work(over):
         take_hold(over)
         go_on(over)
-    hand.take(hand.SOFT)
-    work(view)
-    hand.take(hand.STAMP)
-    work(view)
+    each_tool(work, view)
     assert strokes() == [], "nothing is seen to take hold of"
     # Hidden while something is under the hand: the stroke stays until it is let go.
     show(bent, view)
