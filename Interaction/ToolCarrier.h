@@ -88,6 +88,7 @@ private:
   bool turnWheel(const HandEvent& event);
   void drawSoon();
   void outlineNothing();
+  void reportMoved();
   void drawIfChanged(vtkMTimeType before);
   bool isAlive() const;
 
@@ -109,8 +110,9 @@ private:
   QTimer Refresh;           ///< Merges events that may have changed something.
   QTimer Settle;            ///< Ends a burst of wheel clicks.
   Hand HandNow = Hand::Away;
-  bool ByKeys = false;   ///< Keys moved the cursor last, and not the mouse.
-  glm::ivec2 Pixel{ 0 }; ///< From the view's lower left corner. Without meaning if Away.
+  bool SaysMoved = false; ///< The request says that the display has a transform.
+  bool ByKeys = false;    ///< Keys moved the cursor last, and not the mouse.
+  glm::ivec2 Pixel{ 0 };  ///< From the view's lower left corner. Without meaning if Away.
 };
 }
 

@@ -94,7 +94,8 @@ bool showsOtherVolume(pqPipelineSource* deformation, pqRenderView* view)
 
 void addMarks(const LandmarkList& list, pqRenderView* view, std::vector<LandmarkMark>& marks)
 {
-  const bool bent = bentDisplay(list.source(), view) != nullptr;
+  pqDataRepresentation* display = bentDisplay(list.source(), view);
+  const bool bent = display && !isMoved(display); // else marks would be beside its tissue
   if (!list.areMarksShown() || !(bent || showsOtherVolume(list.source(), view)))
   {
     return;

@@ -39,7 +39,7 @@ glm::ivec2 pixelOf(vtkRenderWindowInteractor* interactor)
 
 bool showsBent(pqPipelineSource* deformation, pqDataRepresentation* display)
 {
-  return display == bentDisplay(deformation, display->getView());
+  return display == bentDisplay(deformation, display->getView()) && !isMoved(display);
 }
 }
 
@@ -244,8 +244,10 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
   if (!found)
   {
     const bool isVolume = this->Probe.tissueAt(view, pixel.x, pixel.y).has_value();
-    this->request(isVolume ? tr("The volume at that position is no reference. ")
-                           : tr("No volume is at that position. "));
+    this->request(isVolume
+        ? tr("The volume at that position is no reference, or its display has a Translation, an "
+             "Orientation or a Scale. ")
+        : tr("No volume is at that position. "));
     return;
   }
   const glm::dvec3 rest = this->Picked->rest;
@@ -337,7 +339,7 @@ bool showsOther(pqPipelineSource* deformation, pqDataRepresentation* display)
 {
   vtkSMProxy* atRest = vtkSMPropertyHelper(deformation->getProxy(), "Input").GetAsProxy();
   return display->isVisible() && (showsSlices(display) || showsVolume(display)) &&
-    vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy() != atRest &&
+    !isMoved(display) && vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy() != atRest &&
     !isBentFrom(display->getInput(), atRest);
 }
 

@@ -66,6 +66,10 @@ double PullTool::gripRadius(const glm::dvec3& position) const
 void PullTool::find()
 {
   this->Marks.clear();
+  if (!this->Bench.probe.works())
+  {
+    return;
+  }
   std::vector<glm::dvec3> rest;
   for (const Pull& pull : this->pulls())
   {
