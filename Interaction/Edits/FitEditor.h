@@ -7,6 +7,8 @@
 #ifndef BrainShift_FitEditor_h
 #define BrainShift_FitEditor_h
 
+#include "Interaction/Edits/FormerWeights.h"
+
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -19,6 +21,7 @@
 #include <glm/glm.hpp>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,6 +85,8 @@ public:
   void edit(const QString& label, const std::function<void(vtkSMProxy*)>& change);
   /// Replaces a list in one undo step.
   void replace(const char* list, const Numbers& numbers, const QString& label);
+  /// Weights of pulls and of pairs of landmarks that are switched off.
+  const std::shared_ptr<FormerWeights>& formerWeights() const { return this->Weights; }
   /// Removes the fit. Its base becomes the Lattice again.
   void remove();
 
@@ -127,6 +132,7 @@ private:
   void draw();
 
   pqPipelineSource* Source;
+  const std::shared_ptr<FormerWeights> Weights = std::make_shared<FormerWeights>();
   mutable std::vector<glm::dvec3> BaseRest; ///< Argument of the last requestBase() ...
   /// ... and its result, empty if it failed. Null: it is out of date.
   mutable std::optional<std::vector<glm::dvec3>> BasePositions;

@@ -283,7 +283,7 @@ void LandmarkList::setOn(const QList<int>& rows, bool on)
     const std::string name = row.name.toStdString();
     if (row.isPicked() && row.on != on && row.picked < static_cast<int>(pairs.size()))
     {
-      pairs[row.picked].weight = on ? 1.0 : 0.0;
+      this->Editor->formerWeights()->setOn(pairs[row.picked], on);
     }
     else if (!row.isPicked())
     {

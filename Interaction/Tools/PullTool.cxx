@@ -247,7 +247,8 @@ void PullTool::takeHold()
   if (!(pull.weight > 0.0)) // switched off: the other pulls place the tissue
   {
     const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPositions({ pull.rest });
-    pull = { pull.rest, fitted.empty() ? pull.rest : fitted.front(), 1.0 };
+    pull.measured = fitted.empty() ? pull.rest : fitted.front();
+    this->Bench.fit.formerWeights()->setOn(pull, true);
   }
   this->From = pull.measured;
 }
