@@ -336,6 +336,23 @@ def large_lattice():
     assert tools == [brainshift.STAMP, brainshift.MOVE], tools
 
 
+def selection_of_another_lattice():
+    # What was selected is no control point any more.
+    bent, view = begin(LatticeDimensions=[33, 33, 33], Samples=0)
+    hand.take(hand.MOVE)
+    for dimensions, pixel in ((33, middle(view, 60, 40)), (41, middle(view))):
+        bent.LatticeDimensions = [dimensions] * 3
+        simple.Render(view)
+        hand.wait(100)
+        hand.hover(pixel)
+        hand.press(pixel, hand.SHIFT)
+        hand.release(pixel, hand.SHIFT)
+        hand.wait()
+        assert window.shown(view, "Highlights") == 1, window.shown(view, "Highlights")
+    hand.drag(middle(view), middle(view, 15, 10))
+    assert len(strokes()) == 1, strokes()
+
+
 def leave_in_mid_drag():
     """The window closes while the hand holds tissue."""
     _, view = begin()
@@ -346,7 +363,7 @@ def leave_in_mid_drag():
 
 STEPS = (without_data, hidden, data_replaced, source_deleted, representation_changed,
          one_of_four_views_closed, undo_past_creation, moved_display, two_filters, before_without_a_tool,
-         large_lattice, leave_in_mid_drag)
+         large_lattice, selection_of_another_lattice, leave_in_mid_drag)
 
 if __name__ == "__main__":
     window.main("SurviveByHand", ((step,) for step in STEPS))
