@@ -112,6 +112,7 @@ void Pointer::start(std::unique_ptr<PoseSource> source)
   this->State = this->Source->state();
   this->Replayed = false;
   this->Recorded = {};
+  this->Unsaved = false;
   this->Last.clear();
   this->Draining.start();
   qApp->installEventFilter(this);
@@ -161,6 +162,7 @@ void Pointer::drain()
   }
   const std::vector<Pose> poses = this->Source->take();
   this->State = this->Source->state();
+  this->Unsaved = this->Unsaved || !(poses.empty() || this->Replayed);
   const RigidPose& placed = this->Registration.imageFromTracker();
   for (const Pose& pose : poses)
   {
@@ -290,7 +292,7 @@ QString Pointer::record(bool on)
   return problem;
 }
 
-QString Pointer::saveSession(const QString& path) const
+QString Pointer::saveSession(const QString& path)
 {
   Session session = this->Recorded;
   if (!this->Replayed && this->Registration.isRegistered())
@@ -299,6 +301,7 @@ QString Pointer::saveSession(const QString& path) const
     session.placement = Placement{ placed.rotation, placed.translation };
   }
   const std::string problem = writeSession(path.toStdString(), session);
+  this->Unsaved = this->Unsaved && !problem.empty();
   return problem.empty() ? QString() : QString::fromStdString(problem) + ".";
 }
 

@@ -68,9 +68,14 @@ public:
   QString record(bool on);
   const PointerTrace& trace() const { return this->Trace; }
 
-  /// All poses since it was opened, as a file. Returns one sentence if it cannot be written.
-  QString saveSession(const QString& path) const;
+  /// All poses since it was opened, MostPoses at most, as a file. Returns one sentence if it cannot
+  /// be written.
+  QString saveSession(const QString& path);
   bool hasSession() const { return !this->Recorded.poses.empty(); }
+  /// Whether it has MostPoses: it keeps no further ones.
+  bool isSessionFull() const { return this->Recorded.poses.size() >= MostPoses; }
+  /// Whether a server sent poses that are not saved. open() and replay() drop them.
+  bool hasUnsaved() const { return this->Unsaved; }
 
   /// Records while the key for it is held.
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -94,6 +99,7 @@ private:
   bool Replayed = false;
   SourceState State;
   Session Recorded; // poses of the tracker
+  bool Unsaved = false;
   std::optional<Pose> Newest;
   std::optional<glm::dvec3> Tip;
   std::optional<double> Distance;

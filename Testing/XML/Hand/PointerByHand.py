@@ -326,6 +326,14 @@ def server_that_dies_gives_one_sentence():
     assert not hand.label("BrainShiftPointerPlace")
     window.server = Server()
     assert hand.type_into("BrainShiftPointerPort", window.server.port)
+    # Poses are dropped on request only.
+    hand.answer("BrainShiftPointerUnsaved", "BrainShiftPointerCancel")
+    assert hand.click("BrainShiftPointerConnect")
+    assert hand.label("BrainShiftPointerStatus") == "The server closed the connection."
+    hand.answer_path("BrainShiftPointerSession", scratch("pointer-kept.txt"))
+    assert hand.click("BrainShiftPointerSave")
+    with open(scratch("pointer-kept.txt"), encoding="utf-8") as file:
+        assert len(file.readlines()) > 300
     assert hand.click("BrainShiftPointerConnect")
     until(lambda: "Hz" in hand.label("BrainShiftPointerStatus"), "poses again")
     assert hand.click("BrainShiftPointerConnect")
@@ -355,6 +363,7 @@ def replay(shift):
 
 def live_tracker_keeps_its_registration():
     """Whatever was replayed in between: here it has none."""
+    hand.answer("BrainShiftPointerUnsaved", "BrainShiftPointerDiscard")
     for shift in ((5.0, 0.0, 3.0), (0.0, 4.0, 2.0)):
         replay(shift)
     window.server = Server()
