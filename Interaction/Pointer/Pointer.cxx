@@ -26,6 +26,7 @@ constexpr int BendEachMs = 100; // a solve of a long trace takes about that long
 constexpr double TouchSeconds = 0.5;
 constexpr double StillMm = 2.0; // a hand at rest on a landmark
 constexpr int LeastTouches = 5;
+constexpr const char* ThresholdName = "BrainShiftCortex"; // of a source: it goes with its volume
 
 // Whether the pipeline runs right now. ParaView 6.1 lets timers run meanwhile.
 bool isExecuting(pqPipelineSource* source)
@@ -142,10 +143,19 @@ std::optional<double> Pointer::age() const
     : std::nullopt;
 }
 
+void Pointer::setThreshold(double threshold)
+{
+  if (pqPipelineSource* deformation = activeDeformation())
+  {
+    deformation->setProperty(ThresholdName, threshold);
+  }
+}
+
 double Pointer::threshold() const
 {
   pqPipelineSource* deformation = activeDeformation();
-  return this->Threshold ? *this->Threshold : deformation ? halfwayThreshold(deformation) : 0.5;
+  const QVariant set = deformation ? deformation->property(ThresholdName) : QVariant();
+  return set.isValid() ? set.toDouble() : deformation ? halfwayThreshold(deformation) : 0.5;
 }
 
 bool Pointer::needsThreshold() const

@@ -53,8 +53,9 @@ public:
   const std::optional<double>& distance() const { return this->Distance; }
   const QString& distanceProblem() const { return this->Cortex.problem(); }
 
-  /// The scalar value at the cortex. A Trace Distance or a fit that has one takes precedence.
-  void setThreshold(double threshold) { this->Threshold = threshold; }
+  /// The scalar value at the cortex of the active Free-Form Deformation. A Trace Distance or a fit
+  /// that has one takes precedence. Default: the middle of its range.
+  void setThreshold(double threshold);
   double threshold() const;
   /// Whether setThreshold() counts.
   bool needsThreshold() const;
@@ -103,7 +104,6 @@ private:
   std::optional<Pose> Newest;
   std::optional<glm::dvec3> Tip;
   std::optional<double> Distance;
-  std::optional<double> Threshold;
   TrackerRegistration Registration;
   std::optional<TrackerRegistration> Own; ///< Since a replay: that of the live tracker.
   std::deque<Pose> Last;                  ///< Those that a touch takes the mean of.

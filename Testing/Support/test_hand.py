@@ -185,7 +185,8 @@ def is_visible(name):
 
 
 def label(name):
-    """The text of a label of the window, or what another widget tells screen readers."""
+    """The text of a label or of a field of a number of the window, or what another widget tells
+    screen readers."""
     return _library.test_hand_label(name.encode()).decode()
 
 

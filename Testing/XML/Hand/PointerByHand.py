@@ -177,6 +177,28 @@ def measure_of(tip):
     return numpy.linalg.norm(numpy.asarray(tip) - MIDDLE) - RADIUS
 
 
+def another_volume_has_a_cortex_of_its_own():
+    bent = window.deformation()
+
+    def threshold():
+        return float(hand.label("BrainShiftPointerThreshold"))
+
+    assert hand.type_into("BrainShiftPointerThreshold", 0.25)
+    until(lambda: threshold() == 0.25, "what was typed")
+    with window.unrecorded():
+        brighter = volume(1000.0 * ball(inside=1.0, edge=2.0, radius=RADIUS))
+        other = simple.FreeFormDeformation(registrationName="other", Input=brighter)
+        other.UpdatePipeline()
+        simple.SetActiveSource(other)
+    until(lambda: threshold() == 500.0, "the middle of its range")
+    simple.SetActiveSource(bent)
+    until(lambda: threshold() == 0.25, "what was typed")
+    with window.unrecorded():
+        simple.Delete(other)
+        simple.Delete(brighter)
+    assert hand.type_into("BrainShiftPointerThreshold", 0.5)
+
+
 def touches_only_what_is_held_still():
     window.server.go(MIDDLE + (1, 2, 14))
     hand.wait(700)  # the tip rests for more than half a second
@@ -384,6 +406,7 @@ def play():
     yield (is_not_drawn_while_it_is_not_seen,)
     yield (casts_no_rays_for_the_tip,)
     yield (tells_the_distance,)
+    yield (another_volume_has_a_cortex_of_its_own,)
     yield (touches_only_what_is_held_still,)
     yield (records_while_the_key_is_down,)
     yield (is_one_step_to_undo,)
