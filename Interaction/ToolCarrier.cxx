@@ -54,10 +54,7 @@ ToolCarrier::ToolCarrier(QObject* parent)
   this->Settle.setInterval(SettleMs);
   QObject::connect(&this->Settle, &QTimer::timeout, this, [this] {
     this->HandNow = this->HandNow == Hand::Zooming ? Hand::Hovering : this->HandNow;
-    if (this->tool() && !this->isHolding())
-    {
-      this->Held->settle();
-    }
+    this->settle();
   });
   QObject::connect(&this->Cursor, &CursorWatch::moved, this, &ToolCarrier::followCursor);
   QObject::connect(&this->Resting, &RestingCursor::sees, this, &ToolCarrier::hoverAgain);
@@ -203,6 +200,24 @@ void ToolCarrier::refresh()
   }
   this->suggestRanges();
   this->Other.report();
+  this->reportMoved();
+}
+
+void ToolCarrier::reportMoved()
+{
+  pqDataRepresentation* display =
+    this->tool() ? bentDisplay(this->Deformation, this->View) : nullptr;
+  const bool moved = display && isMoved(display);
+  if (moved != this->SaysMoved)
+  {
+    this->SaysMoved = moved;
+    ToolSettings::instance()->setRequest(moved
+        ? QCoreApplication::translate("BrainShift",
+            "The display of %1 has a Translation, an Orientation or a Scale, so no tool works "
+            "here. Set Translation and Orientation to 0 and Scale to 1.")
+            .arg(this->Deformation->getSMName())
+        : QString());
+  }
 }
 
 void ToolCarrier::take(pqPipelineSource* deformation, pqRenderView* view, Tool tool)
@@ -263,6 +278,7 @@ void ToolCarrier::followCursor(pqRenderView* view)
   }
   ToolSettings::instance()->setGround(groundOf(activeDeformation(view), view));
   this->Other.report();
+  this->reportMoved();
 }
 
 // Keys take the mouse along, as far as the system lets them; that must not end their work.
@@ -441,6 +457,14 @@ void ToolCarrier::stepSlices(int voxels)
   {
     this->Resting.signalAfterPicture();
     slices->step(voxels);
+  }
+}
+
+void ToolCarrier::settle()
+{
+  if (this->tool() && !this->isHolding())
+  {
+    this->Held->settle();
   }
 }
 

@@ -67,6 +67,8 @@ public:
   void hoverAgain(); ///< As if the cursor came to where it is.
   void stepSlices(int voxels);
   void cancel();
+  /// Ends a burst of wheel clicks, so that it is on the undo stack. A drag goes on.
+  void settle();
   /// Shows a volume as loaded, until it is called with null.
   void showBefore(StrokeEditor* editor);
   bool showsBefore() const { return !this->ShowingBefore.isNull(); }
@@ -86,6 +88,7 @@ private:
   bool turnWheel(const HandEvent& event);
   void drawSoon();
   void outlineNothing();
+  void reportMoved();
   void drawIfChanged(vtkMTimeType before);
   bool isAlive() const;
 
@@ -107,8 +110,9 @@ private:
   QTimer Refresh;           ///< Merges events that may have changed something.
   QTimer Settle;            ///< Ends a burst of wheel clicks.
   Hand HandNow = Hand::Away;
-  bool ByKeys = false;   ///< Keys moved the cursor last, and not the mouse.
-  glm::ivec2 Pixel{ 0 }; ///< From the view's lower left corner. Without meaning if Away.
+  bool SaysMoved = false; ///< The request says that the display has a transform.
+  bool ByKeys = false;    ///< Keys moved the cursor last, and not the mouse.
+  glm::ivec2 Pixel{ 0 };  ///< From the view's lower left corner. Without meaning if Away.
 };
 }
 

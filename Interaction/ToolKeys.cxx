@@ -50,6 +50,12 @@ void takeMouseAlong(pqRenderView* view, const glm::ivec2& to)
   QCursor::setPos(widget->mapToGlobal(inView.toPoint()));
 }
 
+bool isModifier(int key)
+{
+  return key == Qt::Key_Shift || key == Qt::Key_Control || key == Qt::Key_Alt ||
+    key == Qt::Key_AltGr || key == Qt::Key_Meta;
+}
+
 bool hasKeyboard(pqRenderView* view)
 {
   QWidget* focus = QApplication::focusWidget(); // null: a window inside the view has it
@@ -242,7 +248,16 @@ bool ToolKeys::eventFilter(QObject* watched, QEvent* event)
   }
   const bool isKey =
     type == QEvent::KeyPress || type == QEvent::KeyRelease || type == QEvent::ShortcutOverride;
-  return (isKey && this->handleKey(*static_cast<QKeyEvent*>(event), type)) ||
-    QObject::eventFilter(watched, event);
+  if (isKey && this->handleKey(*static_cast<QKeyEvent*>(event), type))
+  {
+    return true;
+  }
+  const bool isShortcut =
+    type == QEvent::ShortcutOverride && !isModifier(static_cast<QKeyEvent*>(event)->key());
+  if (isShortcut || type == QEvent::MouseButtonPress)
+  {
+    this->Carrier.settle(); // Undo, by its keys, by a menu or by a button, must find the stroke
+  }
+  return QObject::eventFilter(watched, event);
 }
 }

@@ -104,6 +104,7 @@ std::string TrackerClient::listen(Connection& connection)
 {
   this->FloodSince = this->now();
   this->FloodCount = 0;
+  this->InSets.clear();
   while (true)
   {
     std::array<unsigned char, HeaderBytes> bytes{};
@@ -191,7 +192,8 @@ bool TrackerClient::wants(const std::string& device)
   return device == this->Followed;
 }
 
-// `wholeSet`: a tool that the message does not name is not seen.
+// `wholeSet`: a TDATA. Once one has named the tool, one that omits it says that it is not seen. A
+// server may send this tool by TRANSFORM and others by TDATA.
 void TrackerClient::record(const MessagePoses& found, bool wholeSet)
 {
   const double now = this->now();
@@ -209,7 +211,13 @@ void TrackerClient::record(const MessagePoses& found, bool wholeSet)
   const bool refused = std::any_of(found.refused.begin(), found.refused.end(), isWanted);
   this->Counter.state.refused += refused ? 1 : 0;
   const bool unseen = std::any_of(found.unseen.begin(), found.unseen.end(), isWanted);
-  if (wholeSet || refused || unseen)
+  const bool posed = std::any_of(found.poses.begin(), found.poses.end(),
+    [&isWanted](const Pose& pose) { return isWanted(pose.device); });
+  if (wholeSet && (posed || refused || unseen))
+  {
+    this->InSets = this->followed();
+  }
+  if ((wholeSet && this->InSets == this->followed()) || refused || unseen)
   {
     this->Counter.state.visible = false;
   }

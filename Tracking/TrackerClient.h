@@ -57,7 +57,13 @@ private:
   const TrackerOptions Options;
   const std::chrono::steady_clock::time_point Start;
   StopSignal Stop;
+  const std::string& followed() const
+  {
+    return this->Options.device.empty() ? this->Followed : this->Options.device;
+  }
+
   std::string Followed; // the tool; only the thread knows
+  std::string InSets;   // the tool that TDATA named; only the thread knows
   double FloodSince = 0.0;
   int FloodCount = 0;
   mutable std::mutex Mutex;

@@ -85,8 +85,8 @@ void AlignEditor::followDeformation()
     return;
   }
   this->Edits = { this->connect(
-                    StrokeEditor::of(bent), &StrokeEditor::editing, this, &AlignEditor::giveWay),
-    this->connect(FitEditor::of(bent), &FitEditor::editing, this, &AlignEditor::giveWay) };
+                    StrokeEditor::of(bent), &StrokeEditor::aboutToEdit, this, &AlignEditor::stop),
+    this->connect(FitEditor::of(bent), &FitEditor::aboutToEdit, this, &AlignEditor::stop) };
   this->OfDeformation->Connect(bent->getProxy(), vtkCommand::PropertyModifiedEvent, this,
     SLOT(notice(vtkObject*, unsigned long, void*, void*)));
 }
@@ -266,8 +266,13 @@ bool AlignEditor::dependsOn(vtkObject* object, const char* property) const
   {
     return isAmong(Placement, property) || isAmong(Dependencies, property);
   }
-  return isAmong(DeformationDependencies, property) ||
-    isLatticeSetting(vtkSMProxy::SafeDownCast(object), property);
+  auto deformation = vtkSMSourceProxy::SafeDownCast(object);
+  const StrokeEditor* strokes = StrokeEditor::of(deformation);
+  if (std::strcmp(property, "Strength") == 0 && strokes && strokes->showsBefore())
+  {
+    return false; // it comes back
+  }
+  return isAmong(DeformationDependencies, property) || isLatticeSetting(deformation, property);
 }
 
 void AlignEditor::followChange(vtkObject* object, const char* property)

@@ -245,9 +245,18 @@ void FitEditor::remove()
   made->GetSessionProxyManager()->UnRegisterProxy(made);
 }
 
-void FitEditor::edit(const QString& label, const std::function<void(vtkSMProxy*)>& change)
+bool FitEditor::claim()
 {
   this->cancel();
+  vtkSMProxy* proxy = this->Source->getProxy();
+  const vtkSMProxy* before = latticeOf(proxy);
+  Q_EMIT this->aboutToEdit();
+  return latticeOf(proxy) != before;
+}
+
+void FitEditor::edit(const QString& label, const std::function<void(vtkSMProxy*)>& change)
+{
+  this->claim();
   FitEditor::setLive(this->fit(), false); // Live must not become a part of an undo step
   {
     SCOPED_UNDO_SET(label);
@@ -265,7 +274,7 @@ void FitEditor::edit(const QString& label, const std::function<void(vtkSMProxy*)
 
 void FitEditor::replace(const char* list, const Numbers& numbers, const QString& label)
 {
-  this->cancel();
+  this->claim();
   if (numbers != this->numbers(list))
   {
     this->edit(label, [&](vtkSMProxy* fit) { setNumbers(fit, list, numbers); });
@@ -274,7 +283,7 @@ void FitEditor::replace(const char* list, const Numbers& numbers, const QString&
 
 void FitEditor::begin(const char* list, const Numbers& underHand)
 {
-  this->cancel();
+  this->claim();
   this->List = list;
   this->Before = this->numbers(list);
   this->Made = !this->fit();
@@ -288,7 +297,6 @@ void FitEditor::begin(const char* list, const Numbers& underHand)
   this->Editing = true;
   this->UnderHand = this->fit();
   FitEditor::setLive(this->UnderHand, true);
-  Q_EMIT this->editing(true);
   this->change(underHand);
 }
 
@@ -346,7 +354,6 @@ void FitEditor::stopEditing()
   this->Editing = false;
   FitEditor::setLive(this->UnderHand, false);
   this->UnderHand = nullptr;
-  Q_EMIT this->editing(false);
   Q_EMIT this->changed();
 }
 

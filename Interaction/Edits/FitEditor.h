@@ -7,6 +7,8 @@
 #ifndef BrainShift_FitEditor_h
 #define BrainShift_FitEditor_h
 
+#include "Interaction/Edits/FormerWeights.h"
+
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -19,6 +21,7 @@
 #include <glm/glm.hpp>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,10 +77,16 @@ public:
   /// Sets the property Live of a fit (null: nothing): whether the user is dragging a measurement.
   /// The undo stack does not see it.
   static void setLive(vtkSMProxy* fit, bool on);
+  /// Ends an edit and a run under way, so that the Lattice is the one that an edit follows. Each
+  /// edit does this first; call it before you read a list to change it. Returns whether the Lattice
+  /// is another one now.
+  bool claim();
   /// One undo step that makes the fit, if there is none, and calls `change` to set its properties.
   void edit(const QString& label, const std::function<void(vtkSMProxy*)>& change);
   /// Replaces a list in one undo step.
   void replace(const char* list, const Numbers& numbers, const QString& label);
+  /// Weights of pulls and of pairs of landmarks that are switched off.
+  const std::shared_ptr<FormerWeights>& formerWeights() const { return this->Weights; }
   /// Removes the fit. Its base becomes the Lattice again.
   void remove();
 
@@ -96,8 +105,9 @@ public:
 Q_SIGNALS:
   /// The fit was added or removed, or one of its properties changed.
   void changed();
-  /// An edit began or ended.
-  void editing(bool on);
+  /// An edit is about to read and change the measurements: a run that has put another Lattice there
+  /// ends now.
+  void aboutToEdit();
   /// The views show the present state of the edit.
   void drawn();
 
@@ -122,6 +132,7 @@ private:
   void draw();
 
   pqPipelineSource* Source;
+  const std::shared_ptr<FormerWeights> Weights = std::make_shared<FormerWeights>();
   mutable std::vector<glm::dvec3> BaseRest; ///< Argument of the last requestBase() ...
   /// ... and its result, empty if it failed. Null: it is out of date.
   mutable std::optional<std::vector<glm::dvec3>> BasePositions;

@@ -155,14 +155,6 @@ void LiveRun::end(State end, const QString& problem)
   Q_EMIT this->changed();
 }
 
-void LiveRun::giveWay(bool begins)
-{
-  if (begins)
-  {
-    this->stop();
-  }
-}
-
 void LiveRun::notice(vtkObject* proxy, unsigned long, void*, void* name)
 {
   const auto property = static_cast<const char*>(name);

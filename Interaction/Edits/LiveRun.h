@@ -80,8 +80,6 @@ protected:
   void end(State end, const QString& problem);
   /// Restores the state before it, as cancel() does. A result that failed its checks can be kept.
   void discard(const QString& reason);
-  /// Stops it if an edit begins in the meantime.
-  void giveWay(bool begins);
 
   /// Takes a step and shows it. Starts `Next`, unless it ended.
   virtual void takeStep() = 0;

@@ -168,8 +168,8 @@ RefineEditor::RefineEditor(pqPipelineSource* source)
   : LiveRun(source)
 {
   // If the user edits meanwhile, the result so far is kept and the edit follows it.
-  this->connect(StrokeEditor::of(source), &StrokeEditor::editing, this, &RefineEditor::giveWay);
-  this->connect(FitEditor::of(source), &FitEditor::editing, this, &RefineEditor::giveWay);
+  this->connect(StrokeEditor::of(source), &StrokeEditor::aboutToEdit, this, &RefineEditor::stop);
+  this->connect(FitEditor::of(source), &FitEditor::aboutToEdit, this, &RefineEditor::stop);
   this->connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
     [this] { this->Unselected.putBack(); });
 }
@@ -379,6 +379,7 @@ void RefineEditor::keep(State end)
 
 void RefineEditor::putResult()
 {
+  StrokeEditor::of(this->Source)->showBefore(false); // its Strength is no part of the step
   if (this->Points != this->Start)
   {
     vtkSMProxy* deformation = this->Source->getProxy();
@@ -432,7 +433,14 @@ void RefineEditor::putBack()
   SCOPED_UNDO_EXCLUDE();
   const QScopedValueRollback<bool> writing(this->Writing, true);
   vtkSMProxy* deformation = this->Source->getProxy();
-  vtkSMPropertyHelper property(deformation, "Lattice");
+  this->putBaseBack();
+  setNumbers(deformation, "Strokes", this->Strokes);
+  deformation->UpdateVTKObjects();
+}
+
+void RefineEditor::putBaseBack()
+{
+  vtkSMPropertyHelper property(this->Source->getProxy(), "Lattice");
   pqServerManagerModel* model = serverManagerModel();
   if (this->Base && model->findItem<pqPipelineSource*>(this->Base))
   {
@@ -442,8 +450,6 @@ void RefineEditor::putBack()
   {
     property.RemoveAllValues();
   }
-  setNumbers(deformation, "Strokes", this->Strokes);
-  deformation->UpdateVTKObjects();
 }
 
 // Later: ParaView is iterating over its sources now, or undo is running.
@@ -479,15 +485,36 @@ void RefineEditor::abandon(const QString& problem)
 
 bool RefineEditor::dependsOn(vtkObject*, const char* property) const
 {
+  if (std::strcmp(property, "Strength") == 0 && StrokeEditor::of(this->Source)->showsBefore())
+  {
+    return false; // it comes back
+  }
   const auto isChanged = [property](const char* name) { return std::strcmp(property, name) == 0; };
   return std::any_of(std::begin(Dependencies), std::end(Dependencies), isChanged) ||
     isLatticeSetting(this->Source->getProxy(), property);
 }
 
+// The result would not fit to what was changed, so base and strokes come back. Whoever changes a
+// property sends them, too: before and after are one undo step of theirs.
 void RefineEditor::followChange(vtkObject*, const char* property)
 {
-  this->abandon(tr("%1 of %2 was changed, so the refinement ended.")
-      .arg(QString(this->Source->getProxy()->GetProperty(property)->GetXMLLabel()),
-        this->Source->getSMName()));
+  vtkSMProxy* deformation = this->Source->getProxy();
+  const pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
+  const bool bringsAll = stack && (stack->getInUndo() || stack->getInRedo());
+  QString problem =
+    tr("%1 of %2 was changed, so the refinement ended.")
+      .arg(QString(deformation->GetProperty(property)->GetXMLLabel()), this->Source->getSMName());
+  if (!bringsAll && std::strcmp(property, "Strokes") != 0)
+  {
+    problem += tr(" Its result is discarded.");
+    const QScopedValueRollback<bool> writing(this->Writing, true);
+    setNumbers(deformation, "Strokes", this->Strokes);
+    std::strcmp(property, "Lattice") == 0 ? void() : this->putBaseBack();
+    QTimer::singleShot(0, this->Source, [deformation] {
+      SCOPED_UNDO_EXCLUDE();
+      deformation->UpdateVTKObjects(); // what sent one property alone
+    });
+  }
+  this->abandon(problem);
 }
 }

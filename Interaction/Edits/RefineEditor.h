@@ -102,6 +102,7 @@ private:
   void show();
   void putIn(vtkSMProxy* lattice, const std::vector<double>& controlPoints);
   void putBack();         ///< Restores base and strokes.
+  void putBaseBack();     ///< Sets the property alone.
   void releaseHeldSoon(); ///< Releases the temporary lattice; it is deleted later.
   void followReference(const QString& name);
   vtkSmartPointer<vtkSMProxy> lattice() const;

@@ -72,6 +72,7 @@ StrokeEditor::Strokes StrokeEditor::strokes() const
 void StrokeEditor::begin(const Strokes& underHand)
 {
   this->cancel();
+  Q_EMIT this->aboutToEdit();
   const Strokes before = this->strokes();
   this->startEditing(before, before, underHand);
 }
@@ -79,6 +80,7 @@ void StrokeEditor::begin(const Strokes& underHand)
 void StrokeEditor::beginAtLast(const Stroke& stroke)
 {
   this->cancel();
+  Q_EMIT this->aboutToEdit();
   const Strokes before = this->strokes();
   Strokes kept = before;
   if (!kept.empty())
@@ -155,6 +157,7 @@ void StrokeEditor::cancel()
 void StrokeEditor::replaceAll(const Strokes& strokes, const QString& label)
 {
   this->cancel();
+  Q_EMIT this->aboutToEdit();
   const unsigned int numbers =
     vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetNumberOfElements();
   if (strokes == this->strokes() && strokes.size() * NumbersPerStroke == numbers)
@@ -199,10 +202,11 @@ void StrokeEditor::showBefore(bool on)
   SCOPED_UNDO_EXCLUDE();
   vtkSMPropertyHelper strength(this->Source->getProxy(), "Strength");
   this->StrengthAfter = on ? strength.GetAsDouble() : this->StrengthAfter;
-  this->ShowsBefore = on;
+  this->ShowsBefore = true; // also while Strength comes back: that is no change of it
   this->TimesBefore += on ? 1 : 0;
   strength.Set(on ? 0.0 : this->StrengthAfter);
   this->Source->getProxy()->UpdateVTKObjects();
+  this->ShowsBefore = on;
   drawFully(this->Source);
 }
 
@@ -212,6 +216,7 @@ void StrokeEditor::changeStrength(double strength)
   if (!this->ChangesStrength)
   {
     this->showBefore(false);
+    Q_EMIT this->aboutToEdit();
     this->ChangesStrength = true;
     this->StrengthBefore = property.GetAsDouble();
   }

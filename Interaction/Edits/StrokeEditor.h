@@ -75,6 +75,9 @@ public:
   void commitStrength();
 
 Q_SIGNALS:
+  /// An edit of strokes or of Strength is about to read and change them: a run that has put other
+  /// strokes there ends now.
+  void aboutToEdit();
   /// The strokes of the property changed, by this editor or by any other.
   void changed();
   /// An edit began or ended.

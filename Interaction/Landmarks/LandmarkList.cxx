@@ -263,6 +263,7 @@ std::vector<PointPair> LandmarkList::picked() const
 
 void LandmarkList::add(const glm::dvec3& rest, const glm::dvec3& measured)
 {
+  this->Editor->claim();
   std::vector<PointPair> pairs = this->picked();
   pairs.push_back({ rest, measured, 1.0 });
   this->Editor->replace("LandmarkPairs", numbersFrom(pairs), tr("Add Landmark Pair"));
@@ -282,7 +283,7 @@ void LandmarkList::setOn(const QList<int>& rows, bool on)
     const std::string name = row.name.toStdString();
     if (row.isPicked() && row.on != on && row.picked < static_cast<int>(pairs.size()))
     {
-      pairs[row.picked].weight = on ? 1.0 : 0.0;
+      this->Editor->formerWeights()->setOn(pairs[row.picked], on);
     }
     else if (!row.isPicked())
     {

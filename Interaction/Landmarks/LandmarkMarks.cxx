@@ -83,26 +83,19 @@ private:
   std::optional<std::pair<glm::dvec3, glm::dvec3>> Plane; // a point of it, unit normal
 };
 
-// Neither the volume at rest nor another of its deformations: landmarks were not measured there.
 bool showsOtherVolume(pqPipelineSource* deformation, pqRenderView* view)
 {
-  vtkSMProxy* atRest = vtkSMPropertyHelper(deformation->getProxy(), "Input").GetAsProxy();
-  for (pqRepresentation* representation : view->getRepresentations())
-  {
+  const QList<pqRepresentation*> shown = view->getRepresentations();
+  return std::any_of(shown.begin(), shown.end(), [deformation](pqRepresentation* representation) {
     auto display = qobject_cast<pqDataRepresentation*>(representation);
-    if (display && display->isVisible() && (showsSlices(display) || showsVolume(display)) &&
-      vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy() != atRest &&
-      !isBentFrom(display->getInput(), atRest))
-    {
-      return true;
-    }
-  }
-  return false;
+    return display && showsOther(deformation, display);
+  });
 }
 
 void addMarks(const LandmarkList& list, pqRenderView* view, std::vector<LandmarkMark>& marks)
 {
-  const bool bent = bentDisplay(list.source(), view) != nullptr;
+  pqDataRepresentation* display = bentDisplay(list.source(), view);
+  const bool bent = display && !isMoved(display); // else marks would be beside its tissue
   if (!list.areMarksShown() || !(bent || showsOtherVolume(list.source(), view)))
   {
     return;

@@ -39,7 +39,7 @@ glm::ivec2 pixelOf(vtkRenderWindowInteractor* interactor)
 
 bool showsBent(pqPipelineSource* deformation, pqDataRepresentation* display)
 {
-  return display == bentDisplay(deformation, display->getView());
+  return display == bentDisplay(deformation, display->getView()) && !isMoved(display);
 }
 }
 
@@ -222,7 +222,8 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
   pqPipelineSource* deformation = this->Deformation;
   const auto bent = [deformation](
                       pqDataRepresentation* display) { return showsBent(deformation, display); };
-  const auto other = [&](pqDataRepresentation* display) { return !bent(display); };
+  const auto other = [deformation](
+                       pqDataRepresentation* display) { return showsOther(deformation, display); };
   std::optional<CursorTissue> found = this->Probe.tissueAt(view, pixel.x, pixel.y, bent);
   if (!this->Picked)
   {
@@ -242,7 +243,11 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
   found = reference ? reference : found;
   if (!found)
   {
-    this->request(tr("No volume is at that position. "));
+    const bool isVolume = this->Probe.tissueAt(view, pixel.x, pixel.y).has_value();
+    this->request(isVolume
+        ? tr("The volume at that position is no reference, or its display has a Translation, an "
+             "Orientation or a Scale. ")
+        : tr("No volume is at that position. "));
     return;
   }
   const glm::dvec3 rest = this->Picked->rest;
@@ -330,12 +335,20 @@ void bringCrosshairTo(pqPipelineSource* deformation, const glm::dvec3& drawn)
   }
 }
 
+bool showsOther(pqPipelineSource* deformation, pqDataRepresentation* display)
+{
+  vtkSMProxy* atRest = vtkSMPropertyHelper(deformation->getProxy(), "Input").GetAsProxy();
+  return display->isVisible() && (showsSlices(display) || showsVolume(display)) &&
+    !isMoved(display) && vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy() != atRest &&
+    !isBentFrom(display->getInput(), atRest);
+}
+
 bool isReferenceShown(pqPipelineSource* deformation)
 {
   const QList<pqDataRepresentation*> shown = shownVolumes();
   return std::any_of(shown.begin(), shown.end(), [deformation](pqDataRepresentation* display) {
     const bool bent = display == bentDisplay(deformation, display->getView());
-    return bent ? isComparison(display) : !showsAsLoaded(deformation, display);
+    return bent ? isComparison(display) : showsOther(deformation, display);
   });
 }
 }

@@ -12,6 +12,7 @@
 
 #include <vector>
 
+class pqDataRepresentation;
 class pqPipelineSource;
 class pqRenderView;
 class vtkObject;
@@ -87,6 +88,10 @@ private:
 /// Brings the slices of all views to a position (mm) where a Free-Form Deformation is drawn: those
 /// of it, those of its volume as loaded to the same tissue, those of others to the position.
 void bringCrosshairTo(pqPipelineSource* deformation, const glm::dvec3& drawn);
+
+/// Whether a display shows neither the volume of a Free-Form Deformation at rest nor one of its
+/// deformations, and is not moved: a landmark of it may be measured there.
+bool showsOther(pqPipelineSource* deformation, pqDataRepresentation* display);
 
 /// Whether a view shows a reference: a comparison of the Free-Form Deformation, or another volume.
 bool isReferenceShown(pqPipelineSource* deformation);

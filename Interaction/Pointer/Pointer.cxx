@@ -26,6 +26,7 @@ constexpr int BendEachMs = 100; // a solve of a long trace takes about that long
 constexpr double TouchSeconds = 0.5;
 constexpr double StillMm = 2.0; // a hand at rest on a landmark
 constexpr int LeastTouches = 5;
+constexpr const char* ThresholdName = "BrainShiftCortex"; // of a source: it goes with its volume
 
 // Whether the pipeline runs right now. ParaView 6.1 lets timers run meanwhile.
 bool isExecuting(pqPipelineSource* source)
@@ -68,6 +69,7 @@ void Pointer::forget(pqPipelineSource* source)
 {
   if (this->Trace.isRecording() && source == this->Trace.deformation())
   {
+    this->HeldByKey = false;
     this->Trace.abandon(); // nothing may be made for what goes
     this->Drawing.setTrace({});
   }
@@ -102,10 +104,16 @@ QString Pointer::replay(const QString& path)
 void Pointer::start(std::unique_ptr<PoseSource> source)
 {
   this->close();
+  if (this->Own)
+  {
+    this->Registration = std::move(*this->Own);
+    this->Own.reset();
+  }
   this->Source = std::move(source);
   this->State = this->Source->state();
   this->Replayed = false;
   this->Recorded = {};
+  this->Unsaved = false;
   this->Last.clear();
   this->Draining.start();
   qApp->installEventFilter(this);
@@ -135,10 +143,19 @@ std::optional<double> Pointer::age() const
     : std::nullopt;
 }
 
+void Pointer::setThreshold(double threshold)
+{
+  if (pqPipelineSource* deformation = activeDeformation())
+  {
+    deformation->setProperty(ThresholdName, threshold);
+  }
+}
+
 double Pointer::threshold() const
 {
   pqPipelineSource* deformation = activeDeformation();
-  return this->Threshold ? *this->Threshold : deformation ? halfwayThreshold(deformation) : 0.5;
+  const QVariant set = deformation ? deformation->property(ThresholdName) : QVariant();
+  return set.isValid() ? set.toDouble() : deformation ? halfwayThreshold(deformation) : 0.5;
 }
 
 bool Pointer::needsThreshold() const
@@ -155,6 +172,7 @@ void Pointer::drain()
   }
   const std::vector<Pose> poses = this->Source->take();
   this->State = this->Source->state();
+  this->Unsaved = this->Unsaved || !(poses.empty() || this->Replayed);
   const RigidPose& placed = this->Registration.imageFromTracker();
   for (const Pose& pose : poses)
   {
@@ -276,6 +294,7 @@ QString Pointer::record(bool on)
   }
   else
   {
+    this->HeldByKey = false;
     this->Trace.end();
     this->Drawing.setTrace({}); // its source is shown now
   }
@@ -283,7 +302,7 @@ QString Pointer::record(bool on)
   return problem;
 }
 
-QString Pointer::saveSession(const QString& path) const
+QString Pointer::saveSession(const QString& path)
 {
   Session session = this->Recorded;
   if (!this->Replayed && this->Registration.isRegistered())
@@ -292,13 +311,14 @@ QString Pointer::saveSession(const QString& path) const
     session.placement = Placement{ placed.rotation, placed.translation };
   }
   const std::string problem = writeSession(path.toStdString(), session);
+  this->Unsaved = this->Unsaved && !problem.empty();
   return problem.empty() ? QString() : QString::fromStdString(problem) + ".";
 }
 
 bool Pointer::eventFilter(QObject* watched, QEvent* event)
 {
   const QEvent::Type type = event->type();
-  if (type == QEvent::ApplicationDeactivate)
+  if (type == QEvent::ApplicationDeactivate && this->HeldByKey)
   {
     this->record(false); // another window receives the key's release
   }
@@ -308,8 +328,8 @@ bool Pointer::eventFilter(QObject* watched, QEvent* event)
   }
   auto key = static_cast<QKeyEvent*>(event);
   const KeyCommand found = commandOfKey({ Scope::Window }, key->key());
-  const bool held = key->modifiers() == Qt::NoModifier && !isTyping();
-  if (found.command != Command::RecordTrace || !(held || this->Trace.isRecording()))
+  const bool begins = key->modifiers() == Qt::NoModifier && !isTyping();
+  if (found.command != Command::RecordTrace || !(begins || this->HeldByKey))
   {
     return QObject::eventFilter(watched, event);
   }
@@ -317,9 +337,15 @@ bool Pointer::eventFilter(QObject* watched, QEvent* event)
   {
     event->accept(); // or a shortcut of the window comes first
   }
-  else if (!key->isAutoRepeat())
+  else if (type == QEvent::KeyPress && !key->isAutoRepeat() && !this->Trace.isRecording())
   {
-    Q_EMIT this->recordHandled(this->record(type == QEvent::KeyPress));
+    const QString problem = this->record(true);
+    this->HeldByKey = this->Trace.isRecording();
+    Q_EMIT this->recordHandled(problem);
+  }
+  else if (type == QEvent::KeyRelease && !key->isAutoRepeat() && this->HeldByKey)
+  {
+    Q_EMIT this->recordHandled(this->record(false));
   }
   return true;
 }

@@ -53,8 +53,9 @@ public:
   const std::optional<double>& distance() const { return this->Distance; }
   const QString& distanceProblem() const { return this->Cortex.problem(); }
 
-  /// The scalar value at the cortex. A Trace Distance or a fit that has one takes precedence.
-  void setThreshold(double threshold) { this->Threshold = threshold; }
+  /// The scalar value at the cortex of the active Free-Form Deformation. A Trace Distance or a fit
+  /// that has one takes precedence. Default: the middle of its range.
+  void setThreshold(double threshold);
   double threshold() const;
   /// Whether setThreshold() counts.
   bool needsThreshold() const;
@@ -68,9 +69,14 @@ public:
   QString record(bool on);
   const PointerTrace& trace() const { return this->Trace; }
 
-  /// All poses since it was opened, as a file. Returns one sentence if it cannot be written.
-  QString saveSession(const QString& path) const;
+  /// All poses since it was opened, MostPoses at most, as a file. Returns one sentence if it cannot
+  /// be written.
+  QString saveSession(const QString& path);
   bool hasSession() const { return !this->Recorded.poses.empty(); }
+  /// Whether it has MostPoses: it keeps no further ones.
+  bool isSessionFull() const { return this->Recorded.poses.size() >= MostPoses; }
+  /// Whether a server sent poses that are not saved. open() and replay() drop them.
+  bool hasUnsaved() const { return this->Unsaved; }
 
   /// Records while the key for it is held.
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -94,14 +100,15 @@ private:
   bool Replayed = false;
   SourceState State;
   Session Recorded; // poses of the tracker
+  bool Unsaved = false;
   std::optional<Pose> Newest;
   std::optional<glm::dvec3> Tip;
   std::optional<double> Distance;
-  std::optional<double> Threshold;
   TrackerRegistration Registration;
-  std::optional<TrackerRegistration> Own; ///< During a replay: that of the live tracker.
+  std::optional<TrackerRegistration> Own; ///< Since a replay: that of the live tracker.
   std::deque<Pose> Last;                  ///< Those that a touch takes the mean of.
   PointerTrace Trace;
+  bool HeldByKey = false; ///< The key began the trace, so its release ends it.
   TipDistance Cortex;
   TipDrawing Drawing;
   QTimer Draining;

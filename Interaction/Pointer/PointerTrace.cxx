@@ -89,6 +89,7 @@ QString PointerTrace::begin(pqPipelineSource* deformation, double threshold)
   {
     return tr("There is no Free-Form Deformation to edit.");
   }
+  editor->claim(); // a run may have put another Lattice there for a while
   this->Deformation = deformation;
   this->Threshold = threshold;
   const vtkSmartPointer<vtkSMProxy> source = this->traces();

@@ -43,6 +43,7 @@ private:
   std::vector<ControlPoint> Faint;    ///< Moved ones a little farther away.
   std::optional<Spot> Tissue;         ///< Under the cursor.
   std::vector<ControlPoint> Selected; ///< A drag moves all of them.
+  Grid SelectedOf;                    ///< The lattice that they belong to.
   Grip Held;
 };
 
@@ -70,6 +71,11 @@ void MoveTool::find(const glm::dvec2& pixel)
   else
   {
     this->Near = probe.controlPointsUnder(pixel, PickPixels * probe.screenScale());
+  }
+  if (*lattice != this->SelectedOf)
+  {
+    this->Selected.clear(); // an index means another control point
+    this->SelectedOf = *lattice;
   }
   // What was selected may have moved since.
   for (ControlPoint& selected : this->Selected)

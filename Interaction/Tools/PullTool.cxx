@@ -40,6 +40,7 @@ private:
   };
 
   void find();
+  void takeHold();
   void show(const std::optional<glm::dvec3>& highlight);
   bool isSeen(const Shown& mark) const;
   double gripRadius(const glm::dvec3& position) const;
@@ -48,6 +49,7 @@ private:
 
   std::vector<Shown> Marks; ///< Those that count.
   std::optional<Spot> Last; ///< Under the cursor.
+  glm::dvec3 Rest{ 0.0 };   ///< During a drag: where the tissue under the press was at rest.
   std::optional<Grip> Held; ///< During a drag: in the deformed frame, before it.
   std::vector<Pull> List;   ///< During a drag: all pulls.
   std::size_t Dragged = 0;  ///< During a drag: the index of its pull.
@@ -64,6 +66,10 @@ double PullTool::gripRadius(const glm::dvec3& position) const
 void PullTool::find()
 {
   this->Marks.clear();
+  if (!this->Bench.probe.works())
+  {
+    return;
+  }
   std::vector<glm::dvec3> rest;
   for (const Pull& pull : this->pulls())
   {
@@ -182,6 +188,7 @@ void PullTool::idle()
 
 void PullTool::pin(const glm::dvec3& rest, double radius)
 {
+  this->Bench.fit.claim();
   std::vector<Pin> pins = rowsFrom<Pin>(this->Bench.fit.numbers("Pins"));
   const std::size_t index = nearest(pins, rest, radius);
   const bool isNear = index < pins.size();
@@ -211,31 +218,39 @@ bool PullTool::press(const HandEvent& event)
     return false;
   }
   this->Last = spot;
-  const double radius = this->gripRadius(spot->position);
   if (commandOf(Tool::Pull, Mouse::Click, event) == Command::Select)
   {
     this->Held.reset();
-    this->pin(*rest, radius);
+    this->pin(*rest, this->gripRadius(spot->position));
     return true;
   }
+  this->Rest = *rest;
+  this->Held = { *spot, pixelOf(event) };
+  this->Begun = false;
+  this->takeHold();
+  return true;
+}
+
+void PullTool::takeHold()
+{
   this->find();
   this->List = this->pulls();
-  this->Dragged = nearest(this->List, *rest, radius);
+  const double radius = this->gripRadius(this->Held->spot.position);
+  this->Dragged = nearest(this->List, this->Rest, radius);
   if (this->Dragged == this->List.size())
   {
-    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPositions({ *rest });
-    this->List.push_back({ *rest, fitted.empty() ? *rest : fitted.front(), 1.0 }); // strokes on top
+    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPositions({ this->Rest });
+    const glm::dvec3& measured = fitted.empty() ? this->Rest : fitted.front();
+    this->List.push_back({ this->Rest, measured, 1.0 }); // strokes on top
   }
   Pull& pull = this->List[this->Dragged];
   if (!(pull.weight > 0.0)) // switched off: the other pulls place the tissue
   {
     const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPositions({ pull.rest });
-    pull = { pull.rest, fitted.empty() ? pull.rest : fitted.front(), 1.0 };
+    pull.measured = fitted.empty() ? pull.rest : fitted.front();
+    this->Bench.fit.formerWeights()->setOn(pull, true);
   }
   this->From = pull.measured;
-  this->Begun = false;
-  this->Held = { *spot, pixelOf(event) };
-  return true;
 }
 
 void PullTool::drag(const HandEvent& event)
@@ -252,6 +267,10 @@ void PullTool::drag(const HandEvent& event)
   {
     this->Held.reset(); // undo or a script changed the pulls first: keep their change
     return;
+  }
+  if (!fit.isEditing() && fit.claim())
+  {
+    this->takeHold(); // of what a run left there, which may have pulls of its own
   }
   const glm::dvec3 moved = this->pulled(*this->Held, pixelOf(event));
   Pull& pull = this->List[this->Dragged];

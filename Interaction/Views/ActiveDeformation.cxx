@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace brainshift
 {
@@ -211,6 +212,17 @@ pqPipelineSource* shownInstead(pqPipelineSource* deformation, pqView* view)
     return isDeformation(source) && bentDisplay(source, view);
   });
   return shown == sources.end() ? nullptr : *shown;
+}
+
+bool isMoved(pqDataRepresentation* display)
+{
+  const auto differs = [display](const char* name, double usual) {
+    const std::vector<double> numbers =
+      vtkSMPropertyHelper(display->getProxy(), name, /*quiet*/ true).GetDoubleArray();
+    return std::any_of(
+      numbers.begin(), numbers.end(), [usual](double number) { return number != usual; });
+  };
+  return differs("Position", 0.0) || differs("Orientation", 0.0) || differs("Scale", 1.0);
 }
 
 bool showsSlices(pqDataRepresentation* display)

@@ -302,6 +302,7 @@ SliceMouse::Facing SliceMouse::facingSlice() const
         vtkSMPropertyHelper(display, ShowNames[facing.plane]).GetAsInt())
       {
         facing.display = display;
+        facing.isMoved = isMoved(qobject_cast<pqDataRepresentation*>(representation));
         return facing;
       }
     }
@@ -351,7 +352,7 @@ bool SliceMouse::onButton(vtkObject*, unsigned long event, void*)
   }
   const Command command = this->commandOf(Mouse::Drag);
   const Facing slice = command == Command::None ? Facing() : this->facingSlice();
-  this->Dragging = !slice.display                           ? Drag::Nothing
+  this->Dragging = !slice.display || slice.isMoved          ? Drag::Nothing
     : command == Command::BringSlices                       ? Drag::Planes
     : command == Command::MoveWipe && this->isOnWipe(slice) ? Drag::Wipe
                                                             : Drag::Nothing;

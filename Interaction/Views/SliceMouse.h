@@ -49,6 +49,7 @@ private:
   struct Facing
   {
     vtkSMProxy* display = nullptr; ///< Null: there is none.
+    bool isMoved = false;          ///< It has a transform: the cursor is elsewhere in its volume.
     int plane = 0;                 ///< 0 sagittal, 1 coronal, 2 axial.
     double normals[9] = {};        ///< Of all three, see vtkDeformedSlicesMapper.
     double voxelSteps[3] = {};     ///< mm.

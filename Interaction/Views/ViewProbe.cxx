@@ -155,10 +155,16 @@ vtkRenderer* ViewProbe::renderer() const
   return this->View->getRenderViewProxy()->GetRenderer();
 }
 
+bool ViewProbe::works() const
+{
+  pqDataRepresentation* display = bentDisplay(this->Deformation, this->View);
+  return display && !isMoved(display);
+}
+
 std::optional<Spot> ViewProbe::spotAt(const glm::dvec2& pixel)
 {
   pqDataRepresentation* display = bentDisplay(this->Deformation, this->View);
-  if (!display)
+  if (!this->works())
   {
     return {};
   }
@@ -198,7 +204,7 @@ std::vector<ControlPoint> ViewProbe::controlPointsNear(
 std::vector<ControlPoint> ViewProbe::controlPointsUnder(const glm::dvec2& pixel, double pixels)
 {
   pqDataRepresentation* display = bentDisplay(this->Deformation, this->View);
-  if (display && showsSlices(display))
+  if (!this->works() || showsSlices(display))
   {
     return {}; // beside a slice are no control points of it
   }

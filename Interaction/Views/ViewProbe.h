@@ -84,14 +84,18 @@ public:
   /// `kept` outlives the probe.
   ViewProbe(pqPipelineSource* deformation, pqRenderView* view, KeptPictures& kept);
 
+  /// Whether the view shows the volume as Deformed Volume or Deformed Slices, where it is.
+  bool works() const;
+
   /// The tissue that the last picture shows at a pixel. Draws nothing. None where the picture shows
-  /// no tissue, or where the volume is shown neither as Deformed Volume nor as Deformed Slices.
+  /// no tissue, and unless works().
   std::optional<Spot> spotAt(const glm::dvec2& pixel);
 
   /// Control points within `radius` (mm) of a spot, and moved ones within `movedRadius`. In a
   /// slice, only those near the slice.
   std::vector<ControlPoint> controlPointsNear(const Spot& spot, double radius, double movedRadius);
-  /// Control points within `pixels` of the line of sight through a pixel. None in views of slices.
+  /// Control points within `pixels` of the line of sight through a pixel. None in views of slices,
+  /// and unless works().
   std::vector<ControlPoint> controlPointsUnder(const glm::dvec2& pixel, double pixels);
 
   /// Rest position of tissue from its drawn position. None before the filter was applied.

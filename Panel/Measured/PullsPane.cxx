@@ -26,7 +26,7 @@ double askedOf(const Pull& pull)
 }
 }
 
-PullModel::PullModel(Write write, QObject* parent)
+PullModel::PullModel(Write write, std::shared_ptr<FormerWeights> weights, QObject* parent)
   : ListModel(
       {
         { tr("Tissue"), tr("A pull or a pin. The check mark includes it in the fit."), true },
@@ -42,6 +42,7 @@ PullModel::PullModel(Write write, QObject* parent)
       },
       parent)
   , WritePulled(std::move(write))
+  , Weights(std::move(weights))
 {
 }
 
@@ -83,9 +84,9 @@ void PullModel::setOn(const QList<int>& rows, bool on)
     {
       changed.pins.at(static_cast<std::size_t>(row) - changed.pulls.size()).enabled = on;
     }
-    else if (this->isOn(row) != on)
+    else
     {
-      changed.pulls.at(static_cast<std::size_t>(row)).weight = on ? 1.0 : 0.0;
+      this->Weights->setOn(changed.pulls.at(static_cast<std::size_t>(row)), on);
     }
   }
   this->WritePulled(changed, on ? tr("Switch On Pulls") : tr("Switch Off Pulls"));
@@ -214,7 +215,7 @@ PullModel* makeModel(const QPointer<FitEditor>& editor, QObject* parent)
         });
       }
     },
-    parent);
+    editor ? editor->formerWeights() : std::make_shared<FormerWeights>(), parent);
 }
 }
 

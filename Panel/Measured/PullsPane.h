@@ -5,12 +5,14 @@
 #ifndef BrainShift_PullsPane_h
 #define BrainShift_PullsPane_h
 
-#include "Filters/Fit/PackedTables.h"
+#include "Interaction/Edits/FormerWeights.h"
 #include "Panel/Parts/List.h"
 
 #include <QPointer>
 #include <QTimer>
 #include <QWidget>
+
+#include <memory>
 
 class QToolButton;
 class pqPipelineSource;
@@ -45,7 +47,8 @@ public:
   /// Replaces all of it. The text names the edit on the undo stack.
   using Write = std::function<void(const Pulled&, const QString&)>;
 
-  explicit PullModel(Write write, QObject* parent = nullptr);
+  /// `weights`: those of rows that are switched off.
+  PullModel(Write write, std::shared_ptr<FormerWeights> weights, QObject* parent = nullptr);
 
   /// Shows what the fit has now.
   void show(const Pulled& pulled);
@@ -56,7 +59,7 @@ public:
   const Pulled& pulled() const { return this->Now; }
 
   bool isOn(int row) const override;
-  /// A pull that is switched on again has the weight 1.
+  /// A pull that is switched on again has its former weight, or 1 if that is not known.
   void setOn(const QList<int>& rows, bool on) override;
   void removeRowsOf(const QList<int>& rows) override;
   /// Deletes all rows: one edit.
@@ -76,6 +79,7 @@ private:
   glm::dvec3 target(int row) const;
 
   const Write WritePulled;
+  const std::shared_ptr<FormerWeights> Weights;
   Pulled Now;
   std::vector<glm::dvec3> Places;
   std::vector<glm::dvec3> Held; // of the pins

@@ -17,6 +17,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSignalBlocker>
@@ -74,6 +75,13 @@ QString lossText(const SourceState& state)
   return parts.isEmpty() ? QString() : "\n" + tr("Messages lost: %1").arg(parts.join(", "));
 }
 
+QString fullText(const Pointer& pointer)
+{
+  return pointer.isSessionFull()
+    ? "\n" + tr("Save Session keeps the first %1 poses and no further ones.").arg(MostPoses)
+    : QString();
+}
+
 QString runningText(const Pointer& pointer)
 {
   const SourceState& state = pointer.state();
@@ -104,7 +112,7 @@ QString connectionText(const Pointer& pointer)
       return state.problem.empty() ? tr("Connecting...")
                                    : tr("%1 Trying again.").arg(sentence(state.problem));
     case SourceState::Phase::Running:
-      return runningText(pointer) + lossText(state);
+      return runningText(pointer) + lossText(state) + fullText(pointer);
     case SourceState::Phase::Ended:
       break;
   }
@@ -343,7 +351,7 @@ void PointerDock::toggleConnection()
   {
     pointer->close();
   }
-  else
+  else if (this->mayDrop())
   {
     TrackerOptions options;
     options.host = this->Host->text().trimmed().toStdString();
@@ -361,6 +369,7 @@ void PointerDock::toggleConnection()
 void PointerDock::save()
 {
   QFileDialog dialog(this, tr("Save Session"), {}, tr("Pointer sessions (*.txt)"));
+  dialog.setObjectName("BrainShiftPointerSession");
   dialog.setAcceptMode(QFileDialog::AcceptSave); // it confirms before it replaces a file
   dialog.setDefaultSuffix(QStringLiteral("txt"));
   if (dialog.exec() == QDialog::Accepted)
@@ -369,13 +378,36 @@ void PointerDock::save()
   }
 }
 
+// Whether nothing is lost if poses begin anew: they are saved, or the user does not want them.
+bool PointerDock::mayDrop()
+{
+  if (!Pointer::instance()->hasUnsaved())
+  {
+    return true;
+  }
+  QMessageBox question(QMessageBox::Question, tr("Live Pointer"),
+    tr("The poses received since the pointer was connected are not saved. Save them?"),
+    QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
+  question.setObjectName("BrainShiftPointerUnsaved");
+  question.button(QMessageBox::Discard)->setObjectName("BrainShiftPointerDiscard");
+  question.button(QMessageBox::Cancel)->setObjectName("BrainShiftPointerCancel");
+  const int answer = question.exec();
+  if (answer == QMessageBox::Save)
+  {
+    this->save();
+    return !Pointer::instance()->hasUnsaved();
+  }
+  return answer == QMessageBox::Discard;
+}
+
 void PointerDock::replay()
 {
-  const QString path = QFileDialog::getOpenFileName(
-    this, tr("Replay Session"), {}, tr("Pointer sessions (*.txt);;All files (*)"));
-  if (!path.isEmpty())
+  QFileDialog dialog(this, tr("Replay Session"), {}, tr("Pointer sessions (*.txt);;All files (*)"));
+  dialog.setObjectName("BrainShiftPointerSession");
+  dialog.setFileMode(QFileDialog::ExistingFile);
+  if (dialog.exec() == QDialog::Accepted && this->mayDrop())
   {
-    this->report(Pointer::instance()->replay(path));
+    this->report(Pointer::instance()->replay(dialog.selectedFiles().front()));
   }
 }
 

@@ -37,6 +37,7 @@ private:
   void toggleConnection(); ///< Connects or disconnects.
   void save();
   void replay();
+  bool mayDrop();
   void report(const QString& problem); ///< Shown until the next step.
   void showState();
   void showConnection();

@@ -257,8 +257,8 @@ TEST_HAND_EXPORT int test_hand_is_visible(const char* name)
   return 0;
 }
 
-// The text of a label, or what another widget tells screen readers, by its object name; nothing
-// without one. Holds until the next call.
+// The text of a label or of a field of a number, or what another widget tells screen readers, by its
+// object name; nothing without one. Holds until the next call.
 TEST_HAND_EXPORT const char* test_hand_label(const char* name)
 {
   static QByteArray text;
@@ -267,7 +267,9 @@ TEST_HAND_EXPORT const char* test_hand_label(const char* name)
   {
     const auto widget = window->findChild<QWidget*>(name);
     const auto label = qobject_cast<QLabel*>(widget);
+    const auto box = qobject_cast<QAbstractSpinBox*>(widget);
     text = label ? label->text().toUtf8()
+      : box      ? box->text().toUtf8()
       : widget   ? widget->accessibleDescription().toUtf8()
                  : text;
   }

@@ -11,6 +11,7 @@
 #include <QComboBox>
 #include <QDragEnterEvent>
 #include <QDropEvent>
+#include <QFileDialog>
 #include <QMimeData>
 #include <QStringList>
 #include <QTest>
@@ -171,6 +172,11 @@ TEST_HAND_EXPORT void test_hand_answer_path(const char* dialog, const char* path
     if (auto files = qobject_cast<pqFileDialog*>(shown))
     {
       files->selectFile(path);
+    }
+    else if (auto local = qobject_cast<QFileDialog*>(shown))
+    {
+      local->selectFile(path);
+      static_cast<QDialog*>(local)->accept();
     }
   });
 }

@@ -41,6 +41,29 @@ TEST_HAND_EXPORT void test_hand_remake_window()
   }
 }
 
+// What Qt reports when another window gets the keyboard.
+TEST_HAND_EXPORT void test_hand_deactivate()
+{
+  QEvent event(QEvent::ApplicationDeactivate);
+  QApplication::sendEvent(qApp, &event);
+}
+
+// Gives a widget the keyboard, by its object name. Returns whether it has it.
+TEST_HAND_EXPORT int test_hand_focus_on(const char* name)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (auto widget = window->findChild<QWidget*>(name))
+    {
+      window->activateWindow();
+      QApplication::setActiveWindow(window); // without a window manager nobody else does
+      widget->setFocus();
+      return widget->hasFocus() ? 1 : 0;
+    }
+  }
+  return 0;
+}
+
 // The text of a field of a property that the properties panel shows, by both names.
 TEST_HAND_EXPORT const char* test_hand_field(const char* property, const char* name)
 {

@@ -185,7 +185,8 @@ def is_visible(name):
 
 
 def label(name):
-    """The text of a label of the window, or what another widget tells screen readers."""
+    """The text of a label or of a field of a number of the window, or what another widget tells
+    screen readers."""
     return _library.test_hand_label(name.encode()).decode()
 
 
@@ -275,6 +276,16 @@ def remake_window():
 def focus():
     """Gives the view the keyboard, as a click in it does."""
     _library.test_hand_focus()
+
+
+def focus_on(name):
+    """Gives a field of the window the keyboard; whether it has it."""
+    return bool(_library.test_hand_focus_on(name.encode()))
+
+
+def deactivate():
+    """Another window of the desktop gets the keyboard."""
+    _library.test_hand_deactivate()
 
 
 def has_focus():

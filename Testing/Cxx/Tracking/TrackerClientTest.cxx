@@ -145,6 +145,18 @@ TEST(TrackerClient, ToolThatTDATADoesNotNameIsNotSeen)
   EXPECT_FALSE(state.visible);
 }
 
+TEST(TrackerClient, TDATAOfOtherToolsHidesNone)
+{
+  const Bytes others = toolData({ { "Probe", poseNumbers(1, 1, 1) } });
+  for (const char* device : { "StylusToReference", "" })
+  {
+    const SourceState state =
+      stateAfter({ transform(1, 2, 3), others, transform(4, 5, 6), others }, device);
+    EXPECT_EQ(state.poses, 2) << device;
+    EXPECT_TRUE(state.visible) << device;
+  }
+}
+
 TEST(TrackerClient, PrefersTheStylus)
 {
   const TestServer server([](const Client& client) {

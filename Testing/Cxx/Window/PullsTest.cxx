@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 using namespace brainshift;
@@ -37,10 +38,11 @@ protected:
 
   std::vector<Pulled> Written;
   PullModel Model{ [this](const Pulled& pulled, const QString& label) {
-    EXPECT_FALSE(label.isEmpty());
-    this->Written.push_back(pulled);
-    this->Model.show(pulled);
-  } };
+                    EXPECT_FALSE(label.isEmpty());
+                    this->Written.push_back(pulled);
+                    this->Model.show(pulled);
+                  },
+    std::make_shared<FormerWeights>() };
 };
 }
 
@@ -112,6 +114,16 @@ TEST_F(PullsInAList, AreSwitchedOffAndDeleted)
   EXPECT_EQ(this->Written.back().pulls[0].rest, glm::dvec3(10.0, 20.0, 30.0));
   this->Model.removeAll();
   EXPECT_EQ(this->Model.rowCount(), 0);
+}
+
+TEST_F(PullsInAList, KeepTheirWeightWhileTheyAreOff)
+{
+  ASSERT_TRUE(this->edit(0, PullModel::WeightColumn, 4.0));
+  this->Model.setOn({ 0, 1 }, false);
+  EXPECT_EQ(this->Written.back().pulls[0].weight, 0.0);
+  this->Model.setOn({ 0, 1 }, true);
+  EXPECT_EQ(this->Written.back().pulls[0].weight, 4.0);
+  EXPECT_EQ(this->Written.back().pulls[1].weight, 1.0); // it was off from the start
 }
 
 TEST_F(PullsInAList, KeepTheirWeightWhereTheyAreOn)

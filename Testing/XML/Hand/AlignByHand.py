@@ -190,6 +190,17 @@ def others_have_their_way():
     hand.wait(100)
     assert motion() == before and "Strength was changed" in warned(), (motion(), warned())
     deformation().Strength = 1.0
+    # The volume as loaded comes and goes.
+    move_away()
+    begin()
+    hand.hover([length // 2 for length in simple.GetActiveView().ViewSize])
+    hand.key_down("o")
+    hand.wait()
+    assert deformation().Strength == 0.0 and is_running(), warned()
+    hand.key_up("o")
+    hand.wait()
+    assert deformation().Strength == 1.0 and is_running() and not warned(), warned()
+    hand.tap(hand.ESCAPE)
 
 
 def too_far_is_said():

@@ -15,7 +15,7 @@ from brainshift_testing import mean_difference, structural_similarity
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
-from window_testing import deformation, edit, strokes, undo_labels
+from window_testing import deformation, edit, redo_labels, strokes, undo_labels
 
 MAJOR = 10  # number of a stroke: its major radius
 SIZE = (300, 300)  # of pictures, pixels
@@ -140,7 +140,24 @@ def stamp():
     edit("Redo", brainshift.STAMP)
     edit("Redo", brainshift.STAMP, brainshift.STAMP)
     first_is(5.0)
+    undo_at_once()
     another_radius_is_another_stroke()
+
+
+def undo_at_once():
+    # Before the burst of clicks has ended by itself.
+    had = [brainshift.STAMP, brainshift.STAMP]
+    undo = undo_labels()
+    hand.hover(middle())
+    hand.wheel(middle(), 2)
+    has(*had, brainshift.STAMP)
+    hand.shortcut("z", hand.CONTROL)
+    hand.wait()
+    has(*had)
+    assert undo_labels() == undo and redo_labels()[:1] == ["Stamp: pull"], undo_labels()
+    edit("Redo", *had, brainshift.STAMP)
+    assert math.isclose(amount(strokes()[-1]), 2.0, rel_tol=1e-9), strokes()
+    edit("Undo", *had)
 
 
 def another_radius_is_another_stroke():

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that pairs of landmarks are picked by clicks in the four views of a head and its moved
-reference, first the tissue and then its place in the reference; that a half pair never reaches the
-fit, and a drag while picking is the camera's; that the table shows the filter's residuals and
+reference, first the tissue and then its place in the reference, not in the volume as loaded; that a
+half pair never reaches the fit, and a drag while picking is the camera's; that the table shows the filter's residuals and
 errors of pairs left out, marks the pair that fits worst, and lets a pair count or not by its tick;
 that each edit is one step to undo; that marks stand in the views, with letters that are as large to
 the eye at 200 %; that two lists without a common name are paired by their order on request; and
@@ -147,6 +147,27 @@ def drags_are_the_cameras_while_picking():
     hand.take(hand.SOFT)
     assert not hand.is_visible("BrainShiftLandmarkRequest")
     hand.take(hand.NONE)
+
+
+def as_loaded_is_no_reference():
+    head, view = scene["bent"].Input, scene["views"]["volume"]
+    hand.click("BrainShiftPickPairs")
+    click_at("axial", scene["middle"] + PLACES[0])
+    with window.unrecorded():
+        simple.Hide(scene["compare"], view)
+        simple.Show(head, view).SetRepresentationType("Deformed Volume")
+        simple.Render(view)
+    hand.wait(300)
+    click(view, [side // 2 for side in view.ViewSize])
+    assert "is no reference" in request() and fit() is None, request()
+    with window.unrecorded():
+        simple.Hide(head, view)
+        simple.Show(scene["compare"], view)
+        simple.SetActiveSource(scene["bent"])
+        simple.Render(view)
+    hand.wait(300)
+    hand.tap(hand.ESCAPE)
+    hand.wait(50)
 
 
 def place_under_a_click_in_3d():
@@ -365,7 +386,8 @@ def a_state_keeps_the_pairs():
 
 window.main("LandmarksByHand", [
     (set_up,), (lists_are_paired_by_order_on_request,), (half_a_pair_never_reaches_the_fit,),
-    (drags_are_the_cameras_while_picking,), (place_under_a_click_in_3d,), (clicks_make_pairs,),
+    (drags_are_the_cameras_while_picking,), (as_loaded_is_no_reference,),
+    (place_under_a_click_in_3d,), (clicks_make_pairs,),
     (table_shows_the_filters_numbers,), (worst_is_the_spoiled_one_and_a_tick_disables_it,),
     (marks_stand_in_the_views,), (letters_are_as_large_to_the_eye_at_200_percent,),
     (delete_is_one_step,), (a_state_keeps_the_pairs,)])

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves the live pointer in the window: its dock is closed until it is asked for; it hears a
 server on loopback, draws the tip over a picture that is not cast anew, and tells the distance that
-Trace Distance tells. Held down, the key T records a trace that bends the brain, as one undo step.
-A server that dies gives one sentence.
+Trace Distance tells. Held down, the key T records a trace that bends the brain, as one undo step;
+the button records until it is pressed again. A server that dies gives one sentence. A replay leaves
+the live tracker its registration.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
@@ -15,7 +16,7 @@ import brainshift
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import ball, show_volume, volume
+from brainshift_testing import ball, scratch, show_volume, volume
 from paraview import simple
 
 MIDDLE, RADIUS = numpy.array((16.0, 16.0, 16.0)), 9.0
@@ -176,6 +177,28 @@ def measure_of(tip):
     return numpy.linalg.norm(numpy.asarray(tip) - MIDDLE) - RADIUS
 
 
+def another_volume_has_a_cortex_of_its_own():
+    bent = window.deformation()
+
+    def threshold():
+        return float(hand.label("BrainShiftPointerThreshold"))
+
+    assert hand.type_into("BrainShiftPointerThreshold", 0.25)
+    until(lambda: threshold() == 0.25, "what was typed")
+    with window.unrecorded():
+        brighter = volume(1000.0 * ball(inside=1.0, edge=2.0, radius=RADIUS))
+        other = simple.FreeFormDeformation(registrationName="other", Input=brighter)
+        other.UpdatePipeline()
+        simple.SetActiveSource(other)
+    until(lambda: threshold() == 500.0, "the middle of its range")
+    simple.SetActiveSource(bent)
+    until(lambda: threshold() == 0.25, "what was typed")
+    with window.unrecorded():
+        simple.Delete(other)
+        simple.Delete(brighter)
+    assert hand.type_into("BrainShiftPointerThreshold", 0.5)
+
+
 def touches_only_what_is_held_still():
     window.server.go(MIDDLE + (1, 2, 14))
     hand.wait(700)  # the tip rests for more than half a second
@@ -292,6 +315,32 @@ def undo_of_a_second_trace_leaves_the_first():
         assert displacement() == moved, (name, displacement(), moved)
 
 
+def button_records_until_it_is_pressed_again():
+    """Neither another window nor a letter that is typed ends it."""
+    def is_recording():
+        return "Recording" in hand.label("BrainShiftPointerRecorded")
+
+    assert hand.click("BrainShiftPointerRecord")
+    until(is_recording, "recording")
+    hand.deactivate()
+    hand.wait(200)
+    assert is_recording(), "another window ended it"
+    assert hand.focus_on("BrainShiftStrengthSpinBox")
+    assert hand.type_into("BrainShiftStrengthSpinBox", "t1")
+    hand.wait(200)
+    assert is_recording(), "a letter ended it"
+    assert hand.click("BrainShiftPointerRecord")
+    until(lambda: not is_recording(), "an end")
+    # The key is let go over there.
+    hand.hover([50, 50])
+    hand.focus()
+    hand.key_down(KEY_T)
+    until(is_recording, "recording")
+    hand.deactivate()
+    until(lambda: not is_recording(), "an end")
+    hand.key_up(KEY_T)
+
+
 def server_that_dies_gives_one_sentence():
     window.server.alive = False
     until(lambda: hand.label("BrainShiftPointerStatus") == "The server closed the connection.",
@@ -299,10 +348,54 @@ def server_that_dies_gives_one_sentence():
     assert not hand.label("BrainShiftPointerPlace")
     window.server = Server()
     assert hand.type_into("BrainShiftPointerPort", window.server.port)
+    # Poses are dropped on request only.
+    hand.answer("BrainShiftPointerUnsaved", "BrainShiftPointerCancel")
+    assert hand.click("BrainShiftPointerConnect")
+    assert hand.label("BrainShiftPointerStatus") == "The server closed the connection."
+    hand.answer_path("BrainShiftPointerSession", scratch("pointer-kept.txt"))
+    assert hand.click("BrainShiftPointerSave")
+    with open(scratch("pointer-kept.txt"), encoding="utf-8") as file:
+        assert len(file.readlines()) > 300
     assert hand.click("BrainShiftPointerConnect")
     until(lambda: "Hz" in hand.label("BrainShiftPointerStatus"), "poses again")
     assert hand.click("BrainShiftPointerConnect")
     assert hand.label("BrainShiftPointerStatus") == "Not connected"
+
+
+def session_of(shift):
+    """A file of a pointer that rests for a minute. Its registration is a shift (mm)."""
+    path = scratch("pointer-session.txt")
+    pose = (1, 0, 0, MIDDLE[0], 0, 1, 0, MIDDLE[1], 0, 0, 1, MIDDLE[2])
+    placed = (1, 0, 0, shift[0], 0, 1, 0, shift[1], 0, 0, 1, shift[2])
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("# BrainShift pointer session 1\n")
+        file.write("\t".join(["# image from tracker", *map(str, placed)]) + "\n")
+        for i in range(600):
+            file.write("\t".join([str(i / 10), "StylusToReference", *map(str, pose)]) + "\n")
+    return path
+
+
+def replay(shift):
+    hand.answer_path("BrainShiftPointerSession", session_of(shift))
+    assert hand.click("BrainShiftPointerReplay")
+    words = "Tip at {:.1f} {:.1f} {:.1f} mm".format(*(MIDDLE + shift))
+    until(lambda: hand.label("BrainShiftPointerPlace") == words, words)
+    assert "as in the saved session" in hand.label("BrainShiftPointerRegistration")
+
+
+def live_tracker_keeps_its_registration():
+    """Whatever was replayed in between: here it has none."""
+    hand.answer("BrainShiftPointerUnsaved", "BrainShiftPointerDiscard")
+    for shift in ((5.0, 0.0, 3.0), (0.0, 4.0, 2.0)):
+        replay(shift)
+    window.server = Server()
+    assert hand.click("BrainShiftPointerConnect")  # ends the replay
+    assert hand.type_into("BrainShiftPointerPort", window.server.port)
+    assert hand.click("BrainShiftPointerConnect")
+    until(lambda: "Hz" in hand.label("BrainShiftPointerStatus"), "poses after a replay")
+    window.server.go(MIDDLE + (1, 2, 14))
+    assert "Not registered" in hand.label("BrainShiftPointerRegistration")
+    assert hand.click("BrainShiftPointerConnect")
 
 
 def play():
@@ -313,11 +406,14 @@ def play():
     yield (is_not_drawn_while_it_is_not_seen,)
     yield (casts_no_rays_for_the_tip,)
     yield (tells_the_distance,)
+    yield (another_volume_has_a_cortex_of_its_own,)
     yield (touches_only_what_is_held_still,)
     yield (records_while_the_key_is_down,)
     yield (is_one_step_to_undo,)
     yield (undo_of_a_second_trace_leaves_the_first,)
+    yield (button_records_until_it_is_pressed_again,)
     yield (server_that_dies_gives_one_sentence,)
+    yield (live_tracker_keeps_its_registration,)
 
 
 if __name__ == "__main__":

@@ -331,6 +331,62 @@ def a_hand_comes_first():
     assert len(window.strokes()) == 1 and len(lattices()) == 1, window.strokes()
 
 
+def a_pull_comes_first():
+    """It follows what was reached, and nothing of the start is lost."""
+    open_again()
+    begin()
+    middle = [length // 2 for length in simple.GetActiveView().ViewSize]
+    hand.take(hand.PULL)
+    hand.drag(middle, [middle[0] + 25, middle[1]])
+    hand.take(hand.NONE)
+    assert undo_labels()[:2] == ["Pull tissue", "Refine"], undo_labels()
+    assert said().startswith("Stopped"), said()
+    fit = deformation().Lattice
+    assert fit.Base and len(lattices()) == 1 and not list(deformation().Strokes), lattices()
+    window.action("Undo")
+    assert deformation().Lattice == fit.Base, "the pull stays"
+    window.action("Undo")
+    assert tuple(deformation().Strokes) == HAND and not deformation().Lattice
+    assert numpy.allclose(field(), kept["rest"], atol=1e-5)
+
+
+def a_change_of_strength_comes_first():
+    open_again()
+    begin()
+    assert hand.type_into("BrainShiftStrengthSpinBox", 0.8)
+    assert undo_labels()[:2] == ["Change Strength", "Refine"], undo_labels()
+    assert deformation().Strength == 0.8 and len(lattices()) == 1, deformation().Strength
+    window.action("Undo")
+    assert deformation().Strength == 1.0 and lattices(), deformation().Strength
+    window.action("Undo")
+    assert tuple(deformation().Strokes) == HAND and not deformation().Lattice
+
+
+def a_look_at_before_disturbs_nothing():
+    open_again()
+    begin()
+    hand.hover([length // 2 for length in simple.GetActiveView().ViewSize])
+    hand.key_down("o")
+    window.until(lambda: deformation().Strength == 0.0, "the volume as loaded")
+    taken = step()
+    window.until(lambda: step() > taken, "a step meanwhile")
+    hand.key_up("o")
+    hand.wait()
+    assert deformation().Strength == 1.0 and step(), said()
+    assert not hand.label("BrainShiftRefineWarning"), hand.label("BrainShiftRefineWarning")
+    hand.key_down("o")
+    hand.wait()
+    assert hand.click("BrainShiftRefineStop")
+    hand.key_up("o")
+    assert said().startswith("Stopped") and undo_labels()[0] == "Refine", undo_labels()
+    assert deformation().Strength == 1.0, deformation().Strength
+    window.action("Undo")
+    assert tuple(deformation().Strokes) == HAND and not deformation().Lattice
+    assert deformation().Strength == 1.0, deformation().Strength
+    window.action("Redo")
+    assert deformation().Lattice and deformation().Strength == 1.0, deformation().Strength
+
+
 def a_pull_follows_it():
     """The first pull makes a fit whose base is the refinement."""
     open_again()
@@ -380,6 +436,12 @@ def others_have_their_way():
     hand.wait(100)
     told = hand.label("BrainShiftRefineWarning")
     assert "Lattice Dimensions of bent was changed" in told, told
+    assert tuple(deformation().Strokes) == HAND and not deformation().Lattice, "strokes are lost"
+    assert not lattices(), lattices()
+    window.action("Undo")
+    assert list(deformation().LatticeDimensions) == [19, 19, 19], "no step to undo"
+    assert tuple(deformation().Strokes) == HAND and not deformation().Lattice
+    window.action("Redo")
     assert hand.click("BrainShiftRefine"), "it runs on"
     hand.tap(hand.ESCAPE)
     deformation().LatticeDimensions = [19, 19, 19]
@@ -443,5 +505,6 @@ window.main("RefineByHand", [
     (set_up,), (closed_until_it_is_wanted,), (the_picture_follows,), (pause_holds_it,),
     (stop_keeps_it,), (it_is_one_step,), (escape_puts_all_back,), (it_ends_by_itself,),
     (a_failed_result_changes_nothing,), (landmarks_judge_it,), (a_state_keeps_it,),
-    (a_hand_comes_first,), (a_pull_follows_it,), (others_have_their_way,), (what_is_wrong_is_said,),
+    (a_hand_comes_first,), (a_pull_comes_first,), (a_change_of_strength_comes_first,),
+    (a_look_at_before_disturbs_nothing,), (a_pull_follows_it,), (others_have_their_way,), (what_is_wrong_is_said,),
     (a_reference_may_go,), (the_deformation_may_go,), (the_session_may_go,)])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that nothing crashes and no stroke is lost when things change under the hand in ParaView's
 window: no data yet, a hidden volume, data replaced or gone, one of the four views closed, undo past
-the filter's creation, two filters at once, a large lattice; and, last, the window closed in
+the filter's creation, a display with a transform, two filters at once, a large lattice; and, last, the window closed in
 mid-drag. And that O shows the volume as loaded without a tool.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
@@ -104,10 +104,7 @@ def hidden():
     def work(over):
         take_hold(over)
         go_on(over)
-    hand.take(hand.SOFT)
-    work(view)
-    hand.take(hand.STAMP)
-    work(view)
+    each_tool(work, view)
     assert strokes() == [], "nothing is seen to take hold of"
     # Hidden while something is under the hand: the stroke stays until it is let go.
     show(bent, view)
@@ -236,12 +233,38 @@ def around_the_middle(view):
             yield middle(view, 12 * right, 12 * up)
 
 
+def moved_display():
+    # What it draws is not where its tissue is.
+    bent, view = begin()
+    display = simple.GetDisplayProperties(bent, view)
+    for name, value in (("Translation", [10, 0, 0]), ("Orientation", [0, 0, 20]),
+                        ("Scale", [2, 1, 1])):
+        usual = list(getattr(display, name))
+        every = (hand.MOVE, hand.SOFT, hand.STAMP, hand.PULL)
+        for tool in every if name == "Translation" else (hand.SOFT,):
+            setattr(display, name, value)
+            simple.ResetCamera(view)
+            simple.Render(view)
+            hand.take(tool)
+            take_hold(view)
+            go_on(view)
+            assert strokes() == [] and not bent.Lattice, (name, tool, strokes())
+            said = hand.label("BrainShiftStatus")
+            assert "Set Translation and Orientation to 0 and Scale to 1." in said, said
+            setattr(display, name, usual)
+    simple.ResetCamera(view)
+    simple.Render(view)
+    hand.take(hand.SOFT)
+    hand.drag(middle(view), middle(view, 15, 10))
+    assert len(strokes()) == 1 and "Scale" not in hand.label("BrainShiftStatus"), strokes()
+
+
 def two_filters():
     # The tools act on the active one, and O on the same.
     bent, view = begin()
-    other = simple.FreeFormDeformation(registrationName="other", Input=head())
-    other_display = show(other, view)
-    other_display.Translation = [60, 0, 0]
+    beside = simple.Wavelet(WholeExtent=[60, 100, 0, 40, 0, 40], Center=[80, 20, 20])
+    other = simple.FreeFormDeformation(registrationName="other", Input=beside)
+    show(other, view)
     simple.ResetCamera(view)
     simple.Render(view)
     hand.wait(100)
@@ -313,6 +336,23 @@ def large_lattice():
     assert tools == [brainshift.STAMP, brainshift.MOVE], tools
 
 
+def selection_of_another_lattice():
+    # What was selected is no control point any more.
+    bent, view = begin(LatticeDimensions=[33, 33, 33], Samples=0)
+    hand.take(hand.MOVE)
+    for dimensions, pixel in ((33, middle(view, 60, 40)), (41, middle(view))):
+        bent.LatticeDimensions = [dimensions] * 3
+        simple.Render(view)
+        hand.wait(100)
+        hand.hover(pixel)
+        hand.press(pixel, hand.SHIFT)
+        hand.release(pixel, hand.SHIFT)
+        hand.wait()
+        assert window.shown(view, "Highlights") == 1, window.shown(view, "Highlights")
+    hand.drag(middle(view), middle(view, 15, 10))
+    assert len(strokes()) == 1, strokes()
+
+
 def leave_in_mid_drag():
     """The window closes while the hand holds tissue."""
     _, view = begin()
@@ -322,8 +362,8 @@ def leave_in_mid_drag():
 
 
 STEPS = (without_data, hidden, data_replaced, source_deleted, representation_changed,
-         one_of_four_views_closed, undo_past_creation, two_filters, before_without_a_tool,
-         large_lattice, leave_in_mid_drag)
+         one_of_four_views_closed, undo_past_creation, moved_display, two_filters, before_without_a_tool,
+         large_lattice, selection_of_another_lattice, leave_in_mid_drag)
 
 if __name__ == "__main__":
     window.main("SurviveByHand", ((step,) for step in STEPS))
