@@ -104,6 +104,8 @@ int vtkInvertDisplacementField::RequestInformation(
 int vtkInvertDisplacementField::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
+  // If something upstream fails, RequestData is never called.
+  this->LargestError = std::numeric_limits<double>::quiet_NaN();
   // The inverse at a point may lie anywhere.
   updateWholeExtent(inputs[0]->GetInformationObject(0));
   return 1;

@@ -79,6 +79,8 @@ figcaption { font-size: 0.85rem; color: var(--soft); margin-top: 0.25rem; }
 def _number(value):
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if value != value:  # NaN
+        return "not known"
     return f"{value:.2f}" if isinstance(value, float) else str(value)
 
 
@@ -97,9 +99,8 @@ def _measured_rows(measure, name):
 def _distances(case):
     """Rows of distances: figure, before, after, unit, meaning."""
     rows = []
-    for measure, name in ((case.trace_distance, "Traced points"),
-                          (case.contact_distance, case.name_of_contacts())):
-        if measure is None:
+    for measure, name, reason in case.measures():
+        if reason:  # the warnings say it
             continue
         wanted = _measured_rows(measure, name)
         with _strength_kept(case.bent):
@@ -354,8 +355,8 @@ def _tiles(case, fit, distances):
         elif name == "Landmarks, in the mean" and used_before:
             continue  # no accuracy follows from them
         elif name.endswith(", RMS") or name == "Landmarks, in the mean":
-            found.append((name, f"{after:.2f} {unit}", f"{before:.2f} {unit} without the "
-                          "deformation"))
+            found.append((name, f"{_number(after)} {unit}", f"{_number(before)} {unit} without "
+                          "the deformation"))
     found.append(("Largest displacement", f"{float(bent.MaximumDisplacement):.1f} mm",
                   f"smallest Jacobian determinant {float(bent.MinimumJacobian):.2f}"))
     return '<div class="tiles">' + "".join(

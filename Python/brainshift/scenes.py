@@ -188,7 +188,7 @@ def traces(case, size):
     as bent. None without such points."""
     from paraview import simple
 
-    measures = [one for one in (case.trace_distance, case.contact_distance) if one is not None]
+    measures = [measure for measure, _, reason in case.measures() if not reason]
     if not measures:
         return None
     with _own_view(_volume_view(size)) as view:
