@@ -394,12 +394,20 @@ def _pictures(case, fit):
             _image(pixels, f"Distance of points to the cortex {when}: green above it, purple below")
             for pixels, when in zip(traced, ("as loaded", "as bent"))])))
     if fit is not None:
-        shown = scenes.slices(case, position, _SQUARE, evidence=True)
-        sections.append(("Evidence", _row("three", [
-            _image(pixels, plane.capitalize()) for plane, pixels in shown.items()])
-            + '<p class="soft">How far the position of the tissue is known, one standard deviation '
-              "along an axis, in the colours of the legend in the pictures.</p>"))
+        sections += _evidence(case, position)
     return sections
+
+
+def _evidence(case, position):
+    """The section with the uncertainty of the fit, if the bent volume has one."""
+    with scenes.evidence_on(case.bent) as is_known:
+        if not is_known:
+            return []
+        shown = scenes.slices(case, position, _SQUARE, evidence=True)
+    return [("Evidence", _row("three", [
+        _image(pixels, plane.capitalize()) for plane, pixels in shown.items()])
+        + '<p class="soft">How far the position of the tissue is known, one standard deviation '
+          "along an axis, in the colours of the legend in the pictures.</p>")]
 
 
 def _sections(case, names):

@@ -84,6 +84,7 @@ def test_one_page_has_all_of_it():
     page = text_of(brainshift.report(case, scratch("report.html")))
     assert sorted(name for name, _ in simple.GetSources()) == sources
     assert len(simple.GetRenderViews()) == views
+    assert case.fit_source().Evidence == 0, "the fit is as it was"
     Balanced().feed(page)
     assert not re.search(r"(src|href)=\"(?!data:)", page), "the page needs another file"
     assert "<script" not in page
