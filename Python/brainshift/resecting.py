@@ -2,7 +2,7 @@
 """How much of a tumour is left after a resection that moved the brain."""
 
 from .casesources import kept, stem
-from .fitting import Fit, is_kind, rigid_of
+from .fitting import Fit, away_from_fit, is_kind, rigid_of
 from .images import Labels, fetched, interpolated
 from .maps import deformed_from_rest, rest_from_deformed
 
@@ -171,8 +171,7 @@ def _spread(bent, fit, field):
     import numpy
 
     deviation = fit.deviation(field.rest)
-    away = numpy.linalg.norm(
-        deformed_from_rest(bent, field.rest) - fit.measured_from_rest(field.rest), axis=1)
+    away = away_from_fit(bent, fit, field.rest)
     return numpy.sqrt(1.0 + away ** 2 / 3.0 / numpy.maximum(deviation, 1e-6) ** 2)
 
 
