@@ -7,6 +7,7 @@
 #include "Common/Portions.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Inversion.h"
+#include "Filters/Fields/BaseLattice.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkDataArray.h"
@@ -84,7 +85,7 @@ NodeField fieldToInvert(vtkImageData* image)
   const Grid grid = gridOf(image);
   vtkDataArray* array = fieldOf(image);
   requireField(grid, array);
-  NodeField field = nodesOf(grid, vectorsOf(array));
+  NodeField field = nodesOf(grid, displacementsOfTissue(image, array));
   requireDisplacements(field.values);
   return field;
 }

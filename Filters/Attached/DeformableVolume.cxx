@@ -23,7 +23,6 @@ namespace
 constexpr const char* DisplacementsName = "FFDDisplacements";
 constexpr const char* DimensionsName = "FFDDimensions";
 constexpr const char* BoxName = "FFDBox";
-constexpr const char* KernelName = "FFDKernel";
 constexpr const char* SamplesName = "FFDSamples";
 constexpr const char* InverseName = "FFDInverse";
 constexpr const char* StrengthName = "FFDStrength";

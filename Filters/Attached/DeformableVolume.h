@@ -34,6 +34,9 @@ class vtkImageData;
 
 namespace brainshift
 {
+/** Name of the array of the kernel. Images of control points have it, too (BaseLattice.h). */
+constexpr const char* KernelName = "FFDKernel";
+
 /** What the arrays hold. */
 struct Deformation
 {

@@ -95,8 +95,9 @@ def load_lattice(filter, name):
     kernel = information.GetFieldDataInformation().GetArrayInformation("FFDKernel")
     filter.Lattice = reader
     filter.LatticeDimensions = [high_x - low_x + 1, high_y - low_y + 1, high_z - low_z + 1]
-    if kernel is not None:
-        filter.Kernel = int(kernel.GetComponentRange(0)[0])
+    number = -1 if kernel is None else int(kernel.GetComponentRange(0)[0])
+    if number >= 0:  # else the lattice takes any
+        filter.Kernel = number
     return reader
 
 
