@@ -43,8 +43,10 @@ int vtkDeformationLattice::RequestData(
 {
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
-  const Lattice lattice = effectiveLattice(readDeformation(input));
+  const Deformation deformation = readDeformation(input);
+  const Lattice lattice = effectiveLattice(deformation);
   setLattice(output, lattice);
+  attachDrawnWith(output, lattice, deformation.samples);
   output->Crop( // each process passes on its own part
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   output->GetFieldData()->AddArray(input->GetFieldData()->GetAbstractArray("FFDSamples"));

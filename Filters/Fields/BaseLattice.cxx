@@ -28,6 +28,7 @@ namespace brainshift
 namespace
 {
 constexpr const char* ArrayName = "FittedFor";
+constexpr const char* DrawnWithName = "DrawnWith";
 constexpr int NumberOfNumbers = 14;
 constexpr double BoxTolerance = 1e-6; // of a cell
 // Single precision rounds each weight. The errors of many weights add up as the root of their
@@ -115,18 +116,32 @@ std::optional<FittedFor> oldFittedFor(vtkDataObject* base)
   return fitted;
 }
 
-std::optional<FittedFor> fittedForOf(vtkDataObject* base)
+std::optional<FittedFor> numbersOf(vtkDataObject* base, const char* name)
 {
-  auto* array = base
-    ? vtkDoubleArray::SafeDownCast(base->GetFieldData()->GetAbstractArray(ArrayName))
-    : nullptr;
+  auto* array =
+    base ? vtkDoubleArray::SafeDownCast(base->GetFieldData()->GetAbstractArray(name)) : nullptr;
   if (!array || array->GetNumberOfValues() != NumberOfNumbers)
   {
-    return oldFittedFor(base);
+    return {};
   }
   FittedFor fitted;
   std::memcpy(static_cast<void*>(&fitted), array->GetPointer(0), sizeof(fitted));
   return fitted;
+}
+
+std::optional<FittedFor> fittedForOf(vtkDataObject* base)
+{
+  const std::optional<FittedFor> fitted = numbersOf(base, ArrayName);
+  return fitted ? fitted : oldFittedFor(base);
+}
+
+void attachNumbers(vtkDataObject* image, const char* name, const FittedFor& numbers)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfValues(NumberOfNumbers);
+  std::memcpy(array->GetPointer(0), &numbers, sizeof(numbers));
+  image->GetFieldData()->AddArray(array);
 }
 
 // The kernel of an image of control points; none of a field.
@@ -233,6 +248,12 @@ bool hasSameMask(const FittedFor& one, const FittedFor& other)
       glm::all(glm::lessThanEqual(away, glm::dvec3(WeightTolerance * std::sqrt(one.nodes())))));
 }
 
+bool hasOtherNodes(const FittedFor& one, const FittedFor& other)
+{
+  return one.dimensions != other.dimensions || one.samples != other.samples ||
+    !coversSameBox(one, other);
+}
+
 template <typename... Parts>
 std::string joined(const Parts&... parts)
 {
@@ -272,6 +293,12 @@ std::string wordsOnBox(const FittedFor& fitted)
     "the box from ", from.x, " ", from.y, " ", from.z, " to ", to.x, " ", to.y, " ", to.z, " mm");
 }
 
+// Words on a setting that differs from one that may have the same words, "a mask" and so on.
+std::string besides(const std::string& one, const std::string& other)
+{
+  return other == one ? "another" + other.substr(other.find(' ')) : other;
+}
+
 // The settings that differ, with the value of either side.
 struct Differences
 {
@@ -286,10 +313,8 @@ Differences differencesOf(const FittedFor& fitted, const FittedFor& wanted)
     if (differs)
     {
       const char* comma = found.fitted.empty() ? "" : ", ";
-      const std::string here = wordsOn(wanted);
       found.fitted += comma + wordsOn(fitted);
-      found.wanted +=
-        comma + (here == wordsOn(fitted) ? "another" + here.substr(here.find(' ')) : here);
+      found.wanted += comma + besides(wordsOn(fitted), wordsOn(wanted));
     }
   };
   add(fitted.dimensions != wanted.dimensions, wordsOnSides);
@@ -371,12 +396,33 @@ std::vector<glm::vec3> displacementsOfTissue(vtkImageData* image, vtkDataArray* 
 
 void attachFittedFor(vtkDataObject* image, const Lattice& lattice, int samples)
 {
-  const FittedFor fitted = fittedFor(lattice, samples);
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(ArrayName);
-  array->SetNumberOfValues(NumberOfNumbers);
-  std::memcpy(array->GetPointer(0), &fitted, sizeof(fitted));
-  image->GetFieldData()->AddArray(array);
+  attachNumbers(image, ArrayName, fittedFor(lattice, samples));
+}
+
+void attachDrawnWith(vtkDataObject* image, const Lattice& lattice, int samples)
+{
+  const FittedFor drawn = fittedFor(lattice, samples);
+  if (drawn.hasMask())
+  {
+    attachNumbers(image, DrawnWithName, drawn);
+  }
+}
+
+std::string wordsOnDrawnWith(vtkDataObject* base, const Lattice& lattice, int samples)
+{
+  const std::optional<FittedFor> drawn = numbersOf(base, DrawnWithName);
+  if (!drawn)
+  {
+    return {};
+  }
+  const FittedFor wanted = fittedFor(lattice, samples);
+  if (!(wanted.hasMask() && hasOtherNodes(*drawn, wanted)) && !hasSameMask(*drawn, wanted))
+  {
+    return "The base lattice was drawn with " + wordsOnMask(*drawn) + ". This deformation has " +
+      besides(wordsOnMask(*drawn), wordsOnMask(wanted)) +
+      ", so other tissue moves. Choose the same Mask, Mask Labels, Mask Growth and Feather";
+  }
+  return {};
 }
 
 std::string wordsOnFittedFor(vtkDataObject* base, const Lattice& lattice, int samples)

@@ -9,6 +9,9 @@
 /// these are no displacements of tissue. An image without the array is a field, which tissue
 /// follows.
 ///
+/// Control points that were drawn with a mask do not hold it. The field array DrawnWith has the
+/// numbers of FittedFor, by which a deformation with another mask is known.
+///
 /// The field array FittedFor holds 14 numbers: LatticeDimensions (3), Kernel, Samples, the first
 /// and the last corner of the box (6, mm, world axes), and three sums of the mask's weights at the
 /// nodes of the refined field (3): plain, and with two pseudo-random factors for each node. Without
@@ -59,6 +62,22 @@ VTKBRAINSHIFTFILTERS_EXPORT std::vector<glm::vec3> displacementsOfTissue(
 /** Attaches the array to a lattice. `samples`: nodes between two control points. */
 VTKBRAINSHIFTFILTERS_EXPORT void attachFittedFor(
   vtkDataObject* image, const Lattice& lattice, int samples);
+
+/**
+ * Attaches to control points with which mask they are drawn; nothing without a mask.
+ *
+ * @param lattice   with its mask
+ * @param samples   nodes between two control points
+ */
+VTKBRAINSHIFTFILTERS_EXPORT void attachDrawnWith(
+  vtkDataObject* image, const Lattice& lattice, int samples);
+
+/**
+ * One sentence without a full stop if a base lattice was drawn with a mask that this deformation
+ * does not have. Masks on other nodes are not compared: then only one that is missing is named.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT std::string wordsOnDrawnWith(
+  vtkDataObject* base, const Lattice& lattice, int samples);
 
 /**
  * One sentence without a full stop if a base lattice was fitted for another deformation than this
