@@ -55,9 +55,6 @@ struct Deformation
  */
 VTKBRAINSHIFTFILTERS_EXPORT void attach(vtkDataObject* volume, const Deformation& deformation);
 
-/** Removes every array whose name begins with FFD, those of the segmentation included. */
-VTKBRAINSHIFTFILTERS_EXPORT void detach(vtkDataObject* volume);
-
 /**
  * Whether a data set carries a deformation, well formed or not. False for null, and for a
  * displacement field (FieldDirection.h): a field is made from a deformation and is not bent by it.
