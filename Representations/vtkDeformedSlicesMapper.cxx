@@ -296,7 +296,8 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const ValueLayout& drawn, const glm::dvec
   {
     return false;
   }
-  const double value = values.scalars->GetComponent(*index, 0);
+  const int component = state.Property ? drawnComponents(state.Property, values.scalars).scalar : 0;
+  const double value = numberOf(values.scalars, *index, component);
   const bool seenThrough = this->MapOpacity && state.Property &&
     state.Property->GetScalarOpacity()->GetValue(value) <= 0.0;
   return std::isfinite(value) && !seenThrough;
