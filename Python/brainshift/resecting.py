@@ -337,13 +337,16 @@ class Resections:
             self.bent, self.tumour, self.cavity, tumour_labels=self.tumour_labels,
             cavity_labels=self.cavity_labels, compare=self.comparison, **settings)
         self._left = repr(self.resection).removeprefix("Resection: ")
+        self._left_by = {name: (float if name == "level" else int)(value)
+                         for name, value in settings.items()}  # also of numpy
         return self.resection
 
     @kept
     def known_resection(self):
-        """`resection`, measured again if a state has kept its line alone; None if there is none."""
+        """`resection`, measured again with its settings if a state has kept no more than these and
+        its line; None if there is none."""
         if self.resection is None and self._left:
-            self.resect()
+            self.resect(**self._left_by)
         return self.resection
 
     def show_resection(self, view=None, look=None):
