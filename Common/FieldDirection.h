@@ -15,9 +15,6 @@ class vtkDataObject;
 
 namespace brainshift
 {
-/** First letters of the arrays of a deformable volume (Filters/Attached/DeformableVolume.h). */
-constexpr const char* DeformationPrefix = "FFD";
-
 /** Which way a map leads. */
 enum class Direction
 {

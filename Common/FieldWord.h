@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Field arrays of a data object: one word in an array of one string, and arrays by prefix.
+/// Field arrays of a data object: one word in an array of one string.
 #ifndef BrainShift_FieldWord_h
 #define BrainShift_FieldWord_h
 
@@ -32,20 +32,6 @@ inline std::string fieldWordOf(vtkDataObject* data, const char* name)
   auto* array =
     data ? vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name)) : nullptr;
   return array && array->GetNumberOfValues() > 0 ? array->GetValue(0) : "";
-}
-
-/** Removes every field array whose name begins with a prefix. */
-inline void removeFieldArrays(vtkDataObject* data, const std::string& prefix)
-{
-  vtkFieldData* fields = data->GetFieldData();
-  for (int i = fields->GetNumberOfArrays() - 1; i >= 0; --i)
-  {
-    const char* const name = fields->GetArrayName(i);
-    if (name && std::string(name).compare(0, prefix.size(), prefix) == 0)
-    {
-      fields->RemoveArray(i);
-    }
-  }
 }
 }
 

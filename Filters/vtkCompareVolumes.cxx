@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/LabelTable.h"
 #include "Common/SharedArray.h"
 #include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
@@ -119,7 +120,7 @@ int vtkCompareVolumes::RequestData(
   cavity.grid = movedRigidly(cavity.grid, motion);
   attachReference(output,
     { { this->Internal->Voxels.as(ReferenceVoxelsName, scalars), movedRigidly(grid, motion) },
-      cavity, static_cast<ReferenceShow>(this->Show) });
+      cavity, static_cast<ReferenceShow>(this->Show), isLabelMap(image) });
   warnAnew(this,
     wordsOnSides({ "the volume", worldAxesOf(output) }, { "the reference", worldAxesOf(image) }),
     this->Internal->Warning);

@@ -217,7 +217,7 @@ int vtkDeformationField::RequestData(
   outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), extent);
   requireMemory(extent, !source.deviations.empty());
   place(output, samples, extent);
-  detach(output);
+  forgetVolume(output);
   nameDirection(output, direction);
   if (!fill(this, output, samples, source.map) || !fillDeviations(this, output, source, direction))
   {

@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Fields/BaseLattice.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkFieldData.h"
@@ -42,13 +43,12 @@ int vtkDeformationLattice::RequestData(
 {
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
-  const Lattice lattice = effectiveLattice(readDeformation(input));
-  setField(output, lattice.grid, lattice.displacements, Direction::Forward);
+  const Deformation deformation = readDeformation(input);
+  const Lattice lattice = effectiveLattice(deformation);
+  setLattice(output, lattice);
+  attachDrawnWith(output, lattice, deformation.samples);
   output->Crop( // each process passes on its own part
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
-  for (const char* name : { "FFDKernel", "FFDSamples" })
-  {
-    output->GetFieldData()->AddArray(input->GetFieldData()->GetAbstractArray(name));
-  }
+  output->GetFieldData()->AddArray(input->GetFieldData()->GetAbstractArray("FFDSamples"));
   return 1;
 }

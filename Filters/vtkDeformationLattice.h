@@ -5,10 +5,12 @@
  *
  * Input: a deformable volume, the output of Free-Form Deformation. Output: an image whose points
  * are the control points. It has the point array Displacement (float32 x 3, mm, world axes;
- * Strength is applied) and the field arrays FFDKernel and FFDSamples.
+ * Strength is applied) and the field arrays FFDKernel and FFDSamples. With the kernel B-spline
+ * these are its numbers, no displacements of tissue. A mask is not in them: the field array
+ * DrawnWith (BaseLattice.h) lets Free-Form Deformation warn if it has another one.
  *
- * Save it as .vti, and give it to Free-Form Deformation as Lattice with the LatticeDimensions and
- * the kernel of the first one: this restores the deformation.
+ * Save it as .vti, and give it to Free-Form Deformation as Lattice with the LatticeDimensions, the
+ * kernel and the mask of the first one: this restores the deformation.
  */
 #ifndef vtkDeformationLattice_h
 #define vtkDeformationLattice_h

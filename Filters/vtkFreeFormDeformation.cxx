@@ -46,9 +46,10 @@ struct vtkFreeFormDeformation::State
   Segmentation LastSegmentation;
   StrokeMarker Marker;
   StrokeMarks LastMarks;
-  std::string TooFine;  // strokes for the lattice: a sentence
-  std::string OtherFit; // the base lattice was fitted for another deformation: a sentence
-  std::string Sides;    // the base lattice may be of another world: a sentence
+  std::string TooFine;   // strokes for the lattice: a sentence
+  std::string OtherFit;  // the base lattice was fitted for another deformation: a sentence
+  std::string OtherMask; // the base lattice was drawn with another mask: a sentence
+  std::string Sides;     // the base lattice may be of another world: a sentence
   std::vector<std::string> Warned;
   bool WarnedOfMask = false; // that it holds strokes back
 
@@ -56,6 +57,7 @@ struct vtkFreeFormDeformation::State
   void judgeBase(vtkImageData* base, const Lattice& start)
   {
     this->OtherFit = wordsOnFittedFor(base, start, this->LastGood.samples);
+    this->OtherMask = wordsOnDrawnWith(base, start, this->LastGood.samples);
     this->LastGood.deviations =
       drawnDeviations(this->OtherFit.empty() ? base : nullptr, start, this->LastGood);
   }
@@ -255,7 +257,7 @@ void vtkFreeFormDeformation::TellWarnings()
     warnings.push_back("The mask leaves no tissue to move: it is nowhere wider than two nodes of "
                        "the refined field. Raise Lattice Dimensions or Samples");
   }
-  for (const std::string& words : { state.OtherFit, state.Sides, state.TooFine })
+  for (const std::string& words : { state.OtherFit, state.OtherMask, state.Sides, state.TooFine })
   {
     if (!words.empty())
     {

@@ -7,6 +7,7 @@
 #include "Common/Portions.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Inversion.h"
+#include "Filters/Fields/BaseLattice.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkDataArray.h"
@@ -84,7 +85,7 @@ NodeField fieldToInvert(vtkImageData* image)
   const Grid grid = gridOf(image);
   vtkDataArray* array = fieldOf(image);
   requireField(grid, array);
-  NodeField field = nodesOf(grid, vectorsOf(array));
+  NodeField field = nodesOf(grid, displacementsOfTissue(image, array));
   requireDisplacements(field.values);
   return field;
 }
@@ -104,6 +105,8 @@ int vtkInvertDisplacementField::RequestInformation(
 int vtkInvertDisplacementField::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
+  // If something upstream fails, RequestData is never called.
+  this->LargestError = std::numeric_limits<double>::quiet_NaN();
   // The inverse at a point may lie anywhere.
   updateWholeExtent(inputs[0]->GetInformationObject(0));
   return 1;

@@ -19,6 +19,8 @@
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 #include "vtkImageAlgorithm.h"
 
+#include <limits>
+
 class VTKBRAINSHIFTFILTERS_EXPORT vtkInvertDisplacementField : public vtkImageAlgorithm
 {
 public:
@@ -30,7 +32,8 @@ public:
 
   /**
    * Largest distance (mm) between a point and where the output and then the input take it. If it is
-   * above 0.05 mm, the field folds somewhere, and a warning says so. Default 0.
+   * above 0.05 mm, the field folds somewhere, and a warning says so. NaN if the last execution
+   * failed, and before the first one.
    */
   vtkGetMacro(LargestError, double);
 
@@ -49,7 +52,7 @@ private:
   vtkInvertDisplacementField(const vtkInvertDisplacementField&) = delete;
   void operator=(const vtkInvertDisplacementField&) = delete;
 
-  double LargestError = 0.0;
+  double LargestError = std::numeric_limits<double>::quiet_NaN();
 };
 
 #endif

@@ -7,6 +7,7 @@
 #include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/LatticeExtremes.h"
+#include "Filters/Traces/StrokeMarks.h"
 
 #include "vtkCellData.h"
 #include "vtkImageData.h"
@@ -238,6 +239,7 @@ int vtkMoments::RequestData(
       share > 0.0 ? deformationOf(volumes[around.later]) : std::nullopt;
     const Deformation now = between(deformationOf(earlier), later, share, carrier);
     attach(output, now);
+    forgetMarks(output); // they are of the carrier's own deformation
     if (share > 0.0 && minimumJacobian(now.lattice) <= 0.0)
     {
       fold = "The deformation between the moments " + numberText(times[around.earlier]) + " and " +

@@ -38,6 +38,7 @@ constexpr int DeformationPort = 1;
 constexpr int SegmentationPort = 2;
 constexpr int CavityPort = 3;
 constexpr vtkIdType PointsAtLeast = 32; // for a thread: about 0.1 ms
+constexpr const char* NotRun = "The distances have not been measured";
 
 // The numbers of all processes, on each of them.
 std::vector<double> ofAllProcesses(const std::vector<double>& own)
@@ -96,6 +97,16 @@ struct vtkTraceDistance::State
   StrokeCurve Curve;                       // RMS, mm
   vtkNew<vtkDoubleArray> CurveNumbers;
   int SurfacesFound = 0;
+  std::string Problem = NotRun;
+
+  // Leaves no figure of the last run. The curve remembers what it noted.
+  void forget(const std::string& problem)
+  {
+    this->Problem = problem;
+    this->Statistics = {};
+    this->Histogram = {};
+    this->Curve.note({}, 0, this->Statistics.rms);
+  }
 
   bool isRemoved(const glm::dvec3& deformed) const
   {
@@ -199,6 +210,11 @@ vtkDoubleArray* vtkTraceDistance::GetRMSAfterStrokes()
   return filled(this->Internal->CurveNumbers, this->Internal->Curve.values());
 }
 
+const char* vtkTraceDistance::GetProblem() const
+{
+  return this->Internal->Problem.c_str();
+}
+
 int vtkTraceDistance::GetSurfacesFound() const
 {
   return this->Internal->SurfacesFound;
@@ -226,6 +242,8 @@ int vtkTraceDistance::FillInputPortInformation(int port, vtkInformation* info)
 int vtkTraceDistance::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  // If something upstream fails, RequestData is never called; if memory runs out, this stays.
+  this->Internal->forget(NotRun);
   // Any point may be nearest to any part of the cortex.
   for (int port = DeformationPort; port <= CavityPort; ++port)
   {
@@ -345,7 +363,11 @@ int vtkTraceDistance::RequestData(
     wordsOnSidesOf(
       { "the traced points", worldAxesOf(input) }, vtkDataObject::GetData(inputs[DeformationPort])),
     state.Warned);
-  this->FindCortex(inputs);
+  if (const std::string problem = problemOf([&] { this->FindCortex(inputs); }); !problem.empty())
+  {
+    state.forget(problem);
+    throw Problem(problem);
+  }
   std::vector<double> distances;
   bool going = true;
   if (auto* blocks = vtkDataObjectTree::SafeDownCast(input))
@@ -374,6 +396,7 @@ int vtkTraceDistance::RequestData(
   state.Histogram = histogramOf(all);
   if (going)
   {
+    state.Problem.clear();
     this->NoteRMS(input, vtkDataObject::GetData(inputs[DeformationPort]));
   }
   addField<vtkIntArray>(output, "Count", this->GetCount());
@@ -382,6 +405,7 @@ int vtkTraceDistance::RequestData(
   addField<vtkDoubleArray>(output, "Percentile95", state.Statistics.percentile95);
   if (!going)
   {
+    state.forget(NotRun);
     output->Initialize();
   }
   return 1;

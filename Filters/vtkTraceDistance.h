@@ -92,7 +92,7 @@ public:
   ///@{
   /**
    * Figures of the last execution: how many points counted, and their distances in mm, which are
-   * NaN if no point counted.
+   * NaN if no point counted, or if it failed.
    */
   int GetCount() const;
   double GetMean() const;
@@ -112,6 +112,9 @@ public:
    * same points and settings; NaN where it did not. Empty if the volume does not say its strokes.
    */
   vtkDoubleArray* GetRMSAfterStrokes();
+
+  /** Why the last execution measured nothing: a sentence without a full stop. Empty if it did. */
+  const char* GetProblem() const;
 
   ///@{
   /**
@@ -142,7 +145,7 @@ private:
   int Label = 1;
   std::vector<int> CavityLabels;
 
-  // Finds the cortex. Returns one sentence if it cannot; empty if it can.
+  // Finds the cortex. Throws a Problem if it cannot.
   void FindCortex(vtkInformationVector** inputs);
   // Adds the array to points. False if the user aborts.
   bool Measure(vtkPointSet* points, std::vector<double>& all);

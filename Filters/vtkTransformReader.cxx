@@ -6,6 +6,7 @@
 #include "Common/Portions.h"
 #include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Fields/BaseLattice.h"
 #include "Filters/Fields/TransformLattice.h"
 #include "Formats/Fields/FieldGap.h"
 #include "Formats/Fields/FieldImage.h"
@@ -336,8 +337,12 @@ void vtkTransformReader::FillField(vtkImageData* field, vtkInformation* volume)
   {
     interpolateAtPoints(lattice);
     this->LargestError = largestErrorOf(lattice, transform);
+    setLattice(field, lattice);
   }
-  setField(field, lattice.grid, lattice.displacements, wanted);
+  else
+  {
+    setField(field, lattice.grid, lattice.displacements, wanted);
+  }
   const WorldAxes world = this->World == LPS ? WorldAxes::LPS : WorldAxes::RAS;
   const WorldAxes axes = state.Chain.knowsSides ? world : WorldAxes::Unknown;
   nameWorldAxes(field, axes);

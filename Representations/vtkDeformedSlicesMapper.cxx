@@ -213,8 +213,7 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
     return false;
   }
   this->PlacePlanes(tissue.values, scene);
-  scene.cubic =
-    this->Interpolation == Cubic && !tissue.nearest && !CategoryScalars::areWanted(tissue.property);
+  scene.cubic = this->IsCubic(tissue) && !tissue.nearest;
   device.Drawn = { scene.planes, scene.frame.worldFromTexture };
   device.DrawnLayout = tissue.values.layout;
   state.Property = tissue.property;
@@ -222,6 +221,11 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
   scene.blended = this->IsTranslucent() && !scene.selecting;
   return device.Drawer.draw(gpu.window, scene, gpu.counters) ||
     gpu.fail("The slices' shader does not compile on this GPU");
+}
+
+bool vtkDeformedSlicesMapper::IsCubic(const TissueRequest& tissue) const
+{
+  return this->Interpolation == Cubic && !CategoryScalars::areWanted(tissue.property);
 }
 
 bool vtkDeformedSlicesMapper::UploadReference(
@@ -244,7 +248,8 @@ bool vtkDeformedSlicesMapper::UploadReference(
     device.Tissue.stored(),
     valueFromReference(
       reference.voxels, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] }),
-    scene.tissue.transferFromScalar, tissue.nearest };
+    scene.tissue.transferFromScalar, reference.isLabels || this->Interpolation == Nearest,
+    this->IsCubic(tissue) && !reference.isLabels };
   return device.Reference.update(gpu, reference, choice, volume, scene.reference);
 }
 
@@ -296,7 +301,8 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const ValueLayout& drawn, const glm::dvec
   {
     return false;
   }
-  const double value = values.scalars->GetComponent(*index, 0);
+  const int component = state.Property ? drawnComponents(state.Property, values.scalars).scalar : 0;
+  const double value = numberOf(values.scalars, *index, component);
   const bool seenThrough = this->MapOpacity && state.Property &&
     state.Property->GetScalarOpacity()->GetValue(value) <= 0.0;
   return std::isfinite(value) && !seenThrough;

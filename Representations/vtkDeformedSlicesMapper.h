@@ -232,6 +232,7 @@ private:
   brainshift::MemoryNeed NeedOf(const brainshift::TissueRequest& tissue);
   bool DrawPlanes(brainshift::GpuTask& gpu, const brainshift::DrawnVolume& seen, Device& device,
     const brainshift::TissueRequest& tissue);
+  bool IsCubic(const brainshift::TissueRequest& tissue) const;
   bool UploadReference(brainshift::GpuTask& gpu, Device& device,
     const brainshift::TissueRequest& tissue, brainshift::SliceScene& scene);
   void PlacePlanes(const brainshift::DrawnValues& values, brainshift::SliceScene& scene);

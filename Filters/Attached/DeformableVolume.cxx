@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/DeformableVolume.h"
 
-#include "Common/FieldWord.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
@@ -23,7 +23,6 @@ namespace
 constexpr const char* DisplacementsName = "FFDDisplacements";
 constexpr const char* DimensionsName = "FFDDimensions";
 constexpr const char* BoxName = "FFDBox";
-constexpr const char* KernelName = "FFDKernel";
 constexpr const char* SamplesName = "FFDSamples";
 constexpr const char* InverseName = "FFDInverse";
 constexpr const char* StrengthName = "FFDStrength";
@@ -215,11 +214,6 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
   attachTuple<vtkIntArray>(fields, SamplesName, { double(deformation.samples) });
   attachTuple<vtkIntArray>(fields, InverseName, { double(static_cast<int>(deformation.inverse)) });
   attachTuple<vtkDoubleArray>(fields, StrengthName, { deformation.strength });
-}
-
-void detach(vtkDataObject* volume)
-{
-  removeFieldArrays(volume, DeformationPrefix);
 }
 
 bool carriesDeformation(vtkDataObject* volume)

@@ -34,6 +34,9 @@ class vtkImageData;
 
 namespace brainshift
 {
+/** Name of the array of the kernel. Images of control points have it, too (BaseLattice.h). */
+constexpr const char* KernelName = "FFDKernel";
+
 /** What the arrays hold. */
 struct Deformation
 {
@@ -51,9 +54,6 @@ struct Deformation
  * field is a volume like any other from here on: its direction (FieldDirection.h) is removed.
  */
 VTKBRAINSHIFTFILTERS_EXPORT void attach(vtkDataObject* volume, const Deformation& deformation);
-
-/** Removes every array whose name begins with FFD, those of the segmentation included. */
-VTKBRAINSHIFTFILTERS_EXPORT void detach(vtkDataObject* volume);
 
 /**
  * Whether a data set carries a deformation, well formed or not. False for null, and for a

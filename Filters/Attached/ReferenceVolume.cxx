@@ -21,6 +21,7 @@ namespace
 {
 constexpr const char* GridName = "ReferenceGrid";
 constexpr const char* ShowName = "ReferenceShow";
+constexpr const char* LabelsName = "ReferenceIsLabels";
 constexpr const char* CavityName = "CavityVoxels";
 constexpr const char* CavityGridName = "CavityGrid";
 
@@ -81,6 +82,14 @@ void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
   show->SetName(ShowName);
   show->InsertNextValue(static_cast<int>(reference.show));
   fields->AddArray(show);
+  fields->RemoveArray(LabelsName);
+  if (reference.isLabels)
+  {
+    vtkNew<vtkIntArray> labels;
+    labels->SetName(LabelsName);
+    labels->InsertNextValue(1);
+    fields->AddArray(labels);
+  }
 }
 
 ReferenceVolume readReference(vtkDataObject* volume)
@@ -95,13 +104,15 @@ ReferenceVolume readReference(vtkDataObject* volume)
     reference.show = shown == 1.0 ? ReferenceShow::Deformed
       : shown == 2.0              ? ReferenceShow::Reference
                                   : ReferenceShow::Both;
+    reference.isLabels = fields->HasArray(LabelsName) != 0;
   }
   return reference;
 }
 
 void removeReference(vtkDataObject* volume)
 {
-  for (const char* name : { ReferenceVoxelsName, GridName, ShowName, CavityName, CavityGridName })
+  for (const char* name :
+    { ReferenceVoxelsName, GridName, ShowName, LabelsName, CavityName, CavityGridName })
   {
     volume->GetFieldData()->RemoveArray(name);
   }

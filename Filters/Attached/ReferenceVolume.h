@@ -6,6 +6,7 @@
 ///    ReferenceVoxels  any type x 1, nx*ny*nz tuples, x fastest: the reference's point scalars
 ///    ReferenceGrid    see attachGrid in CarriedArray.h
 ///    ReferenceShow    int: 0 both volumes are shown, 1 only the deformed one, 2 only the reference
+///    ReferenceIsLabels  int, 1: only if the reference's values are labels, which are never blended
 ///    CavityVoxels     unsigned char x 1, only with a cavity: 1 where the reference lacks tissue
 ///                     that was removed, else 0. Beyond the boxes around all voxels there is no
 ///                     cavity. Numbers take the nearest voxel. Pictures draw the edge where the
@@ -54,6 +55,7 @@ struct ReferenceVolume : PlacedVoxels
 {
   PlacedVoxels cavity; ///< 1 or 0; no voxels without a cavity
   ReferenceShow show = ReferenceShow::Both;
+  bool isLabels = false; ///< values are never blended
 };
 
 /** Name of the reference's voxels as attachReference needs them. */

@@ -2,17 +2,23 @@
 #include "Filters/Fields/BaseLattice.h"
 
 #include "Common/FieldWord.h"
+#include "Common/Numbers.h"
+#include "Common/Parallel.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Deformation/ControlPoints.h"
 #include "Filters/Deformation/Kernels.h"
+#include "Filters/Fields/TransformLattice.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
+#include "vtkIntArray.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <regex>
 #include <sstream>
@@ -21,32 +27,15 @@ namespace brainshift
 {
 namespace
 {
-// Adds a displacement field on any grid to a lattice, read trilinearly at the control points.
-void addField(Lattice& lattice, vtkImageData* image, vtkDataArray* field)
-{
-  const Grid from = gridOf(image);
-  const auto value = [&](const glm::ivec3& at) {
-    double tuple[3];
-    field->GetTuple(static_cast<vtkIdType>(from.offset(at.x, at.y, at.z)), tuple);
-    return glm::dvec3(tuple[0], tuple[1], tuple[2]);
-  };
-  std::size_t point = 0;
-  forEachIndex(glm::ivec3(0), lattice.grid.dimensions - 1, [&](const glm::ivec3& index) {
-    const glm::dvec3 position = from.gridFromWorld(lattice.grid.worldFromGrid(glm::dvec3(index)));
-    glm::dvec3 sum(0.0);
-    forEachCorner(
-      from, position, [&](const glm::ivec3& at, double weight) { sum += weight * value(at); });
-    lattice.displacements[point++] += glm::vec3(sum);
-  });
-}
-
 constexpr const char* ArrayName = "FittedFor";
+constexpr const char* DrawnWithName = "DrawnWith";
 constexpr int NumberOfNumbers = 14;
 constexpr double BoxTolerance = 1e-6; // of a cell
 // Single precision rounds each weight. The errors of many weights add up as the root of their
 // number.
 constexpr double WeightTolerance = 1e-6;
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t PointsAtLeast = 256; // for a thread: about 0.1 ms
 
 // The numbers of the array, in this order.
 struct FittedFor
@@ -127,18 +116,115 @@ std::optional<FittedFor> oldFittedFor(vtkDataObject* base)
   return fitted;
 }
 
-std::optional<FittedFor> fittedForOf(vtkDataObject* base)
+std::optional<FittedFor> numbersOf(vtkDataObject* base, const char* name)
 {
-  auto* array = base
-    ? vtkDoubleArray::SafeDownCast(base->GetFieldData()->GetAbstractArray(ArrayName))
-    : nullptr;
+  auto* array =
+    base ? vtkDoubleArray::SafeDownCast(base->GetFieldData()->GetAbstractArray(name)) : nullptr;
   if (!array || array->GetNumberOfValues() != NumberOfNumbers)
   {
-    return oldFittedFor(base);
+    return {};
   }
   FittedFor fitted;
   std::memcpy(static_cast<void*>(&fitted), array->GetPointer(0), sizeof(fitted));
   return fitted;
+}
+
+std::optional<FittedFor> fittedForOf(vtkDataObject* base)
+{
+  const std::optional<FittedFor> fitted = numbersOf(base, ArrayName);
+  return fitted ? fitted : oldFittedFor(base);
+}
+
+void attachNumbers(vtkDataObject* image, const char* name, const FittedFor& numbers)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfValues(NumberOfNumbers);
+  std::memcpy(array->GetPointer(0), &numbers, sizeof(numbers));
+  image->GetFieldData()->AddArray(array);
+}
+
+// The kernel of an image of control points; none of a field.
+std::optional<int> kernelOf(vtkImageData* image)
+{
+  vtkDataArray* array = image->GetFieldData()->GetArray(KernelName);
+  const std::optional<FittedFor> fitted = fittedForOf(image); // files of former versions
+  if (!array && !fitted)
+  {
+    return {};
+  }
+  double number = fitted ? fitted->kernel : NaN;
+  if (array)
+  {
+    number = array->GetNumberOfValues() == 1 ? array->GetTuple1(0) : NaN;
+  }
+  if (number != KernelCatmullRom && number != KernelBSpline && number != AnyKernel)
+  {
+    throw Problem(std::string("Field array ") + KernelName + " is " + numberText(number) +
+      "; of control points it must be 0, 1 or -1");
+  }
+  return static_cast<int>(number);
+}
+
+// To rounding: on several MPI ranks each knows its box from its own piece.
+bool hasSamePoints(const Grid& one, const Grid& other)
+{
+  const double tolerance = BoxTolerance * glm::length(one.spacing);
+  const glm::dvec3 end(one.dimensions - 1);
+  const auto isSame = [&](const glm::dvec3& index) {
+    return glm::distance(one.worldFromGrid(index), other.worldFromGrid(index)) <= tolerance;
+  };
+  return one.dimensions == other.dimensions && isSame(glm::dvec3(0.0)) &&
+    isSame({ end.x, 0.0, 0.0 }) && isSame({ 0.0, end.y, 0.0 }) && isSame({ 0.0, 0.0, end.z });
+}
+
+// A displacement field at the points of another grid.
+std::vector<glm::vec3> fieldAt(const Grid& points, const Grid& from, vtkDataArray* field)
+{
+  const auto value = [&](const glm::ivec3& at) {
+    double tuple[3];
+    field->GetTuple(static_cast<vtkIdType>(from.offset(at.x, at.y, at.z)), tuple);
+    return glm::dvec3(tuple[0], tuple[1], tuple[2]);
+  };
+  std::vector<glm::vec3> found;
+  found.reserve(points.count());
+  forEachIndex(glm::ivec3(0), points.dimensions - 1, [&](const glm::ivec3& index) {
+    const glm::dvec3 position = from.gridFromWorld(points.worldFromGrid(glm::dvec3(index)));
+    glm::dvec3 sum(0.0);
+    forEachCorner(
+      from, position, [&](const glm::ivec3& at, double weight) { sum += weight * value(at); });
+    found.emplace_back(sum);
+  });
+  return found;
+}
+
+struct PlacedPoints // control points
+{
+  Grid grid;
+  int kernel;
+  std::vector<glm::vec3> displacements;
+};
+
+// The cubic of control points at the points of another grid.
+std::vector<glm::vec3> cubicAt(const Grid& points, const PlacedPoints& from)
+{
+  std::vector<glm::vec3> found(points.count());
+  const auto count = static_cast<std::int64_t>(found.size());
+  parallelFor(0, count, PointsAtLeast, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t point = first; point < last; ++point)
+    {
+      const glm::dvec3 index(indexOf(points, static_cast<std::size_t>(point)));
+      found[point] = cubicDisplacement(from.grid.dimensions, from.kernel, from.displacements.data(),
+        from.grid.gridFromWorld(points.worldFromGrid(index)));
+    }
+  });
+  return found;
+}
+
+void add(Lattice& lattice, const std::vector<glm::vec3>& displacements)
+{
+  std::transform(displacements.begin(), displacements.end(), lattice.displacements.begin(),
+    lattice.displacements.begin(), std::plus<>());
 }
 
 // To rounding: on several MPI ranks each knows the box from its own piece.
@@ -160,6 +246,12 @@ bool hasSameMask(const FittedFor& one, const FittedFor& other)
   return one.hasMask() == other.hasMask() &&
     (!one.hasMask() ||
       glm::all(glm::lessThanEqual(away, glm::dvec3(WeightTolerance * std::sqrt(one.nodes())))));
+}
+
+bool hasOtherNodes(const FittedFor& one, const FittedFor& other)
+{
+  return one.dimensions != other.dimensions || one.samples != other.samples ||
+    !coversSameBox(one, other);
 }
 
 template <typename... Parts>
@@ -201,6 +293,12 @@ std::string wordsOnBox(const FittedFor& fitted)
     "the box from ", from.x, " ", from.y, " ", from.z, " to ", to.x, " ", to.y, " ", to.z, " mm");
 }
 
+// Words on a setting that differs from one that may have the same words, "a mask" and so on.
+std::string besides(const std::string& one, const std::string& other)
+{
+  return other == one ? "another" + other.substr(other.find(' ')) : other;
+}
+
 // The settings that differ, with the value of either side.
 struct Differences
 {
@@ -215,10 +313,8 @@ Differences differencesOf(const FittedFor& fitted, const FittedFor& wanted)
     if (differs)
     {
       const char* comma = found.fitted.empty() ? "" : ", ";
-      const std::string here = wordsOn(wanted);
       found.fitted += comma + wordsOn(fitted);
-      found.wanted +=
-        comma + (here == wordsOn(fitted) ? "another" + here.substr(here.find(' ')) : here);
+      found.wanted += comma + besides(wordsOn(fitted), wordsOn(wanted));
     }
   };
   add(fitted.dimensions != wanted.dimensions, wordsOnSides);
@@ -232,6 +328,15 @@ Differences differencesOf(const FittedFor& fitted, const FittedFor& wanted)
   add(!coversSameBox(fitted, wanted), wordsOnBox);
   return found;
 }
+}
+
+void setLattice(vtkImageData* image, const Lattice& lattice)
+{
+  setField(image, lattice.grid, lattice.displacements, Direction::Forward);
+  vtkNew<vtkIntArray> kernel;
+  kernel->SetName(KernelName);
+  kernel->InsertNextValue(lattice.kernel);
+  image->GetFieldData()->AddArray(kernel);
 }
 
 void addBase(Lattice& lattice, vtkImageData* base)
@@ -250,8 +355,22 @@ void addBase(Lattice& lattice, vtkImageData* base)
   {
     throw Problem("The base lattice has no point array of 3 components (mm)");
   }
-  requirePosition(gridOf(base), "The base lattice's ");
-  addField(lattice, base, field);
+  const Grid grid = gridOf(base);
+  requirePosition(grid, "The base lattice's ");
+  std::optional<int> kernel = kernelOf(base);
+  kernel = kernel == AnyKernel ? lattice.kernel : kernel;
+  if (kernel == lattice.kernel && hasSamePoints(grid, lattice.grid))
+  {
+    add(lattice, vectorsOf(field));
+  }
+  else
+  {
+    Lattice sampled = makeLattice(lattice.grid, lattice.kernel);
+    sampled.displacements = kernel ? cubicAt(lattice.grid, { grid, *kernel, vectorsOf(field) })
+                                   : fieldAt(lattice.grid, grid, field);
+    interpolateAtPoints(sampled);
+    add(lattice, sampled.displacements);
+  }
   const auto finite = [](const glm::vec3& d) {
     return std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z);
   };
@@ -264,14 +383,46 @@ void addBase(Lattice& lattice, vtkImageData* base)
   requireDisplacements(lattice, "the " + array);
 }
 
+std::vector<glm::vec3> displacementsOfTissue(vtkImageData* image, vtkDataArray* field)
+{
+  std::vector<glm::vec3> displacements = vectorsOf(field);
+  if (kernelOf(image) != KernelBSpline) // the other one passes through its control points
+  {
+    return displacements;
+  }
+  const Grid grid = gridOf(image);
+  return cubicAt(grid, { grid, KernelBSpline, std::move(displacements) });
+}
+
 void attachFittedFor(vtkDataObject* image, const Lattice& lattice, int samples)
 {
-  const FittedFor fitted = fittedFor(lattice, samples);
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(ArrayName);
-  array->SetNumberOfValues(NumberOfNumbers);
-  std::memcpy(array->GetPointer(0), &fitted, sizeof(fitted));
-  image->GetFieldData()->AddArray(array);
+  attachNumbers(image, ArrayName, fittedFor(lattice, samples));
+}
+
+void attachDrawnWith(vtkDataObject* image, const Lattice& lattice, int samples)
+{
+  const FittedFor drawn = fittedFor(lattice, samples);
+  if (drawn.hasMask())
+  {
+    attachNumbers(image, DrawnWithName, drawn);
+  }
+}
+
+std::string wordsOnDrawnWith(vtkDataObject* base, const Lattice& lattice, int samples)
+{
+  const std::optional<FittedFor> drawn = numbersOf(base, DrawnWithName);
+  if (!drawn)
+  {
+    return {};
+  }
+  const FittedFor wanted = fittedFor(lattice, samples);
+  if (!(wanted.hasMask() && hasOtherNodes(*drawn, wanted)) && !hasSameMask(*drawn, wanted))
+  {
+    return "The base lattice was drawn with " + wordsOnMask(*drawn) + ". This deformation has " +
+      besides(wordsOnMask(*drawn), wordsOnMask(wanted)) +
+      ", so other tissue moves. Choose the same Mask, Mask Labels, Mask Growth and Feather";
+  }
+  return {};
 }
 
 std::string wordsOnFittedFor(vtkDataObject* base, const Lattice& lattice, int samples)

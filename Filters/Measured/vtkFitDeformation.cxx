@@ -465,7 +465,7 @@ int vtkFitDeformation::RequestData(
   }
   vtkImageData* output = vtkImageData::GetData(outputs);
   const Lattice& bent = state.Fitted.lattice();
-  setField(output, bent.grid, bent.displacements, Direction::Forward);
+  setLattice(output, bent);
   attachFittedFor(output, bent, this->GetSamples());
   state.Evidence.setLive(this->Live);
   const std::string noEvidence = this->Evidence

@@ -4,6 +4,7 @@
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Fields/BaseLattice.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkImageData.h"
@@ -64,7 +65,8 @@ int vtkRefinedLattice::RequestData(
   }
   requireDisplacements(lattice, "ControlPoints");
   vtkImageData* output = vtkImageData::GetData(outputs);
-  setField(output, lattice.grid, lattice.displacements, Direction::Forward);
+  lattice.kernel = AnyKernel;
+  setLattice(output, lattice);
   output->Crop(
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   return 1;

@@ -73,6 +73,11 @@ void attachMarks(vtkDataObject* volume, const StrokeMarks& marks)
   volume->GetFieldData()->AddArray(array);
 }
 
+void forgetMarks(vtkDataObject* volume)
+{
+  volume->GetFieldData()->RemoveArray(MarksName);
+}
+
 StrokeMarks readMarks(vtkDataObject* volume)
 {
   auto array =

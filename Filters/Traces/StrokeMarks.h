@@ -51,6 +51,9 @@ private:
 /** Attaches the marks to a data set. */
 VTKBRAINSHIFTFILTERS_EXPORT void attachMarks(vtkDataObject* volume, const StrokeMarks& marks);
 
+/** Removes them: the deformation is none that strokes made. */
+VTKBRAINSHIFTFILTERS_EXPORT void forgetMarks(vtkDataObject* volume);
+
 /** Reads what attachMarks wrote; empty if there are none. */
 VTKBRAINSHIFTFILTERS_EXPORT StrokeMarks readMarks(vtkDataObject* volume);
 

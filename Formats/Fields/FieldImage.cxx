@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Fields/FieldImage.h"
 
-#include "Common/FieldWord.h"
+#include "Common/WorldAxes.h"
 #include "Formats/Volumes/VolumeFile.h"
 
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 
 #include <cstring>
 
 namespace brainshift
 {
+void forgetVolume(vtkDataObject* field)
+{
+  const WorldAxes axes = worldAxesOf(field);
+  field->GetFieldData()->Initialize();
+  nameWorldAxes(field, axes);
+}
+
 void setField(vtkImageData* image, const Grid& grid, const std::vector<glm::vec3>& displacements,
   Direction direction)
 {
@@ -26,7 +35,7 @@ void setField(vtkImageData* image, const Grid& grid, const std::vector<glm::vec3
   array->SetNumberOfTuples(static_cast<vtkIdType>(displacements.size()));
   std::memcpy(array->GetPointer(0), displacements.data(), displacements.size() * sizeof(glm::vec3));
   image->GetPointData()->SetVectors(array);
-  removeFieldArrays(image, DeformationPrefix);
+  forgetVolume(image);
   nameDirection(image, direction);
 }
 

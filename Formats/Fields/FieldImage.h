@@ -11,6 +11,7 @@
 #include <vector>
 
 class vtkDataArray;
+class vtkDataObject;
 class vtkImageData;
 
 namespace brainshift
@@ -25,8 +26,15 @@ constexpr const char* DisplacementName = "Displacement";
 constexpr const char* DeviationName = "Deviation";
 
 /**
+ * Removes all field arrays but the world axes. The pipeline passes on those of the volume that a
+ * field is made for, and labels, unit or reference of a volume are none of a field.
+ */
+VTKBRAINSHIFTFORMATS_EXPORT void forgetVolume(vtkDataObject* field);
+
+/**
  * Makes an image of a field: it lies on the whole grid and has the point array Displacement
- * (float32 x 3, mm, world axes) as its vectors and a field array that names the direction.
+ * (float32 x 3, mm, world axes) as its vectors and a field array that names the direction. Of the
+ * field arrays of before only the world axes stay.
  */
 VTKBRAINSHIFTFORMATS_EXPORT void setField(vtkImageData* image, const Grid& grid,
   const std::vector<glm::vec3>& displacements, Direction direction);

@@ -61,7 +61,7 @@ class _Setting:
 
 class _Result:
     """A result that a case forgets as soon as what it was found from is another. State files keep
-    texts and lists of them."""
+    texts, numbers, and lists and dictionaries of them."""
 
     def __init__(self, default, lasts=True):
         self.default, self.lasts = default, lasts
@@ -169,7 +169,8 @@ class Case(Steps, Moments, TimedTraces, Resections, Exports):
     cavity_labels = _Setting([], _labels)
     landmarks_judge = _Setting(False, lambda name, value: bool(value))
     resection, judged = _Result(None, lasts=False), _Result(None)
-    exported, reported, _left = _Result(()), _Result(""), _Result("")  # the last of resect
+    exported, reported = _Result(()), _Result("")
+    _left, _left_by = _Result(""), _Result({})  # of resect: its line and its settings
 
     def __init__(self, **roles):
         unknown = sorted(set(roles) - set(ROLES))

@@ -47,7 +47,10 @@ def _world(world):
 
 
 def save_lattice(filter, name):
-    """Save the control points of a Free-Form Deformation, as they are drawn.
+    """Save the control points of a Free-Form Deformation. Strokes and Strength are in them.
+
+    A mask is not: the filter that loads them needs the same Mask, MaskLabels, MaskGrowth and
+    Feather, and warns if it has others. `save_field` saves a deformation with its mask.
 
     - `filter`: a Free-Form Deformation.
     - `name`: path of the file to write, an image file that ends in `.vti`.
@@ -65,7 +68,7 @@ def load_lattice(filter, name):
     """Load a file of `save_lattice` as the base lattice of a Free-Form Deformation.
 
     The filter takes the density and the kernel that the file was saved with. Its strokes add to
-    the lattice of the file.
+    the lattice of the file. It keeps its own mask, and warns if the file was saved with another.
 
     - `filter`: a Free-Form Deformation.
     - `name`: path of the file.
@@ -95,8 +98,9 @@ def load_lattice(filter, name):
     kernel = information.GetFieldDataInformation().GetArrayInformation("FFDKernel")
     filter.Lattice = reader
     filter.LatticeDimensions = [high_x - low_x + 1, high_y - low_y + 1, high_z - low_z + 1]
-    if kernel is not None:
-        filter.Kernel = int(kernel.GetComponentRange(0)[0])
+    number = -1 if kernel is None else int(kernel.GetComponentRange(0)[0])
+    if number >= 0:  # else the lattice takes any
+        filter.Kernel = number
     return reader
 
 

@@ -243,6 +243,22 @@ class Fit:
         return self.measured_from_rest(points) + factor[:, None] * drawn(left, count, random)
 
 
+def away_from_fit(bent, fit, rest):
+    """How far (mm) strokes and Strength take tissue from where the fit that bends it has it.
+
+    - `bent`: the Free-Form Deformation
+    - `fit`: its `Fit`
+    - `rest`: an N x 3 array of positions in the rest frame
+    """
+    import numpy
+
+    from .maps import deformed_from_rest
+
+    rotation, shift = fit.rigid[:3, :3], fit.rigid[:3, 3]
+    fitted = (fit.measured_from_rest(rest) - shift) @ rotation  # rotation is orthogonal
+    return numpy.linalg.norm(deformed_from_rest(bent, rest) - fitted, axis=1)
+
+
 def _lattice_settings(source):
     """The names of the settings of a lattice: Filters/Proxies/LatticeSettings.xml marks them."""
     hints = {name: source.SMProxy.GetProperty(name).GetHints() for name in source.ListProperties()}

@@ -91,9 +91,11 @@ class Electrodes:
         on = numpy.isfinite(self.floating)
         if on.any():
             shift = numpy.linalg.norm(self.bent - self.rest, axis=1)[on]
-            words += [f"shift {shift.mean():.1f} mm (largest {shift.max():.1f})",
-                      f"leave-one-out error {self.leave_one_out[on].mean():.2f} mm (mean)",
-                      f"{int(self.off.sum())} not on the cortex"]
+            words.append(f"shift {shift.mean():.1f} mm (largest {shift.max():.1f})")
+            known = self.leave_one_out[on & ~self.off]  # the sheet was made without the others
+            if len(known):
+                words.append(f"leave-one-out error {known.mean():.2f} mm (mean)")
+            words.append(f"{int(self.off.sum())} not on the cortex")
         return "Electrodes: " + ", ".join(words) + (f". {self.warning}" if self.warning else "")
 
     def save(self, name):

@@ -11,7 +11,7 @@ from .casesources import paths_of
 from .drawing import png
 from .figures import _strength_kept, _versions
 from .files import figures_of
-from .fitting import Fit
+from .fitting import Fit, away_from_fit
 from .grids import sheet_left_out
 from .maps import rest_from_deformed
 from .rolefiles import files_of, hash_of, is_dicom, is_store
@@ -19,6 +19,8 @@ from .roles import ROLES, ending
 from .steps import strokes_of
 
 NOTICE = "Research software, not for clinical use."
+
+_UNKNOWN = "not known"
 
 #: Sizes of pictures, pixels.
 _WIDE, _SQUARE = (760, 600), (480, 480)
@@ -79,7 +81,14 @@ figcaption { font-size: 0.85rem; color: var(--soft); margin-top: 0.25rem; }
 def _number(value):
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if value != value:  # NaN
+        return _UNKNOWN
     return f"{value:.2f}" if isinstance(value, float) else str(value)
+
+
+def _with_unit(value, unit):
+    text = _number(value)
+    return text if text == _UNKNOWN else f"{text} {unit}".strip()
 
 
 def _measured_rows(measure, name):
@@ -97,9 +106,8 @@ def _measured_rows(measure, name):
 def _distances(case):
     """Rows of distances: figure, before, after, unit, meaning."""
     rows = []
-    for measure, name in ((case.trace_distance, "Traced points"),
-                          (case.contact_distance, case.name_of_contacts())):
-        if measure is None:
+    for measure, name, reason in case.measures():
+        if reason:  # the warnings say it
             continue
         wanted = _measured_rows(measure, name)
         with _strength_kept(case.bent):
@@ -149,17 +157,31 @@ def _fit_rows(case):
                          float(numpy.sqrt((known ** 2).mean())), "mm",
                          "What the fit leaves at the points that it used."))
     rows += _left_out_rows(case, fit)
-    places = rest_from_deformed(case.bent, [list(scenes.focus_of(case))])
-    deviation = float(fit.deviation(places)[0])
-    rows += [("Deviation in the slices' middle", deviation, "mm",
+    rows += [("Deviation in the slices' middle", _deviation_in_middle(case, fit), "mm",
               "Uncertainty of the tissue's position along an axis, one standard deviation; within "
-              "2.8 times as much with 95 %."),
+              "2.8 times as much with 95 %. Strokes and Strength add the distance to the fit."),
              ("Share", fit.share, "", "Fraction of the fit that tissue allows without folding."),
              ("Calibration", fit.calibration, "",
               "Factor on uncertainties that the leave-one-out errors ask for."),
              ("Anchors", int(source.GetPropertyValue("AnchorCount")), "",
               "Points that hold the cortex away from the opening.")]
     return rows, fit
+
+
+def _deviation_in_middle(case, fit):
+    """Standard deviation (mm) of the tissue that is drawn in the middle of the slices. NaN if the
+    fit says nothing of this deformation.
+
+    A hand is no measurement: where it takes tissue elsewhere than the fit, the distance counts.
+    """
+    import numpy
+
+    with scenes.evidence_on(case.bent) as is_known:
+        if not is_known:
+            return float("nan")
+        rest = rest_from_deformed(case.bent, [list(scenes.focus_of(case))])
+        away = away_from_fit(case.bent, fit, rest)
+        return float(numpy.hypot(fit.deviation(rest), away / numpy.sqrt(3.0))[0])
 
 
 def _left_out_rows(case, fit):
@@ -319,7 +341,7 @@ def _table(header, rows, classes=()):
 
 def _values(rows):
     """A table of figures with unit and meaning."""
-    shown = [(name, f"{_number(value)} {unit}".strip(), meaning)
+    shown = [(name, _with_unit(value, unit), meaning)
              for name, value, unit, meaning in rows]
     return _table(("Figure", "Value", "Meaning"), shown, ("", "number", "soft"))
 
@@ -354,8 +376,8 @@ def _tiles(case, fit, distances):
         elif name == "Landmarks, in the mean" and used_before:
             continue  # no accuracy follows from them
         elif name.endswith(", RMS") or name == "Landmarks, in the mean":
-            found.append((name, f"{after:.2f} {unit}", f"{before:.2f} {unit} without the "
-                          "deformation"))
+            found.append((name, _with_unit(after, unit),
+                          f"{_with_unit(before, unit)} without the deformation"))
     found.append(("Largest displacement", f"{float(bent.MaximumDisplacement):.1f} mm",
                   f"smallest Jacobian determinant {float(bent.MinimumJacobian):.2f}"))
     return '<div class="tiles">' + "".join(
@@ -393,12 +415,20 @@ def _pictures(case, fit):
             _image(pixels, f"Distance of points to the cortex {when}: green above it, purple below")
             for pixels, when in zip(traced, ("as loaded", "as bent"))])))
     if fit is not None:
-        shown = scenes.slices(case, position, _SQUARE, evidence=True)
-        sections.append(("Evidence", _row("three", [
-            _image(pixels, plane.capitalize()) for plane, pixels in shown.items()])
-            + '<p class="soft">How far the position of the tissue is known, one standard deviation '
-              "along an axis, in the colours of the legend in the pictures.</p>"))
+        sections += _evidence(case, position)
     return sections
+
+
+def _evidence(case, position):
+    """The section with the uncertainty of the fit, if the bent volume has one."""
+    with scenes.evidence_on(case.bent) as is_known:
+        if not is_known:
+            return []
+        shown = scenes.slices(case, position, _SQUARE, evidence=True)
+    return [("Evidence", _row("three", [
+        _image(pixels, plane.capitalize()) for plane, pixels in shown.items()])
+        + '<p class="soft">How far the position of the tissue is known, one standard deviation '
+          "along an axis, in the colours of the legend in the pictures.</p>")]
 
 
 def _sections(case, names):
@@ -415,7 +445,7 @@ def _sections(case, names):
     if case.resection is not None:
         yield "Resection", _values(_resection_rows(case.resection))
     if distances:
-        rows = [(name, f"{_number(old)} {unit}".strip(), f"{_number(new)} {unit}".strip(), meaning)
+        rows = [(name, _with_unit(old, unit), _with_unit(new, unit), meaning)
                 for name, old, new, unit, meaning in distances]
         yield "Measurements", _table(("Figure", "As loaded", "Bent", "Meaning"), rows,
                                      ("", "number", "number", "soft"))

@@ -2,7 +2,7 @@
 """How much of a tumour is left after a resection that moved the brain."""
 
 from .casesources import kept, stem
-from .fitting import Fit, is_kind, rigid_of
+from .fitting import Fit, away_from_fit, is_kind, rigid_of
 from .images import Labels, fetched, interpolated
 from .maps import deformed_from_rest, rest_from_deformed
 
@@ -171,8 +171,7 @@ def _spread(bent, fit, field):
     import numpy
 
     deviation = fit.deviation(field.rest)
-    away = numpy.linalg.norm(
-        deformed_from_rest(bent, field.rest) - fit.measured_from_rest(field.rest), axis=1)
+    away = away_from_fit(bent, fit, field.rest)
     return numpy.sqrt(1.0 + away ** 2 / 3.0 / numpy.maximum(deviation, 1e-6) ** 2)
 
 
@@ -338,13 +337,16 @@ class Resections:
             self.bent, self.tumour, self.cavity, tumour_labels=self.tumour_labels,
             cavity_labels=self.cavity_labels, compare=self.comparison, **settings)
         self._left = repr(self.resection).removeprefix("Resection: ")
+        self._left_by = {name: (float if name == "level" else int)(value)
+                         for name, value in settings.items()}  # also of numpy
         return self.resection
 
     @kept
     def known_resection(self):
-        """`resection`, measured again if a state has kept its line alone; None if there is none."""
+        """`resection`, measured again with its settings if a state has kept no more than these and
+        its line; None if there is none."""
         if self.resection is None and self._left:
-            self.resect()
+            self.resect(**self._left_by)
         return self.resection
 
     def show_resection(self, view=None, look=None):

@@ -188,7 +188,7 @@ def traces(case, size):
     as bent. None without such points."""
     from paraview import simple
 
-    measures = [one for one in (case.trace_distance, case.contact_distance) if one is not None]
+    measures = [measure for measure, _, reason in case.measures() if not reason]
     if not measures:
         return None
     with _own_view(_volume_view(size)) as view:
@@ -272,13 +272,29 @@ class _Slice:
         return (focus + rows[:, None, None] * up + columns[None, :, None] * right)
 
 
+@contextlib.contextmanager
+def evidence_on(bent):
+    """The bent volume carries the uncertainty of its fit; afterwards only if it did before. Yields
+    whether there is one: none is known where the fit is for other settings."""
+    fit = bent.Lattice
+    before = fit.Evidence
+    try:
+        fit.Evidence = 1
+        bent.UpdatePipeline()
+        arrays = bent.GetDataInformation().GetFieldDataInformation()
+        yield arrays.GetArrayInformation("FFDDeviations") is not None
+    finally:
+        fit.Evidence = before
+        bent.UpdatePipeline()
+
+
 def slices(case, position, size, evidence=False, strength=None):
-    """Pictures of the three planes through a position (mm): a dict by the names of planes."""
+    """Pictures of the three planes through a position (mm): a dict by the names of planes.
+
+    `evidence`: with the uncertainty of the fit, which `evidence_on` turns on.
+    """
     result = {}
     with _strength_kept(case.bent):
-        if evidence:
-            case.bent.Lattice.Evidence = 1
-            case.bent.UpdatePipeline()
         if strength is not None:
             case.bent.Strength = strength
         for plane in PLANES:

@@ -93,27 +93,35 @@ class Steps:
     def _step_measure(self):
         if self.lacks_bent():
             return self.lacks_bent(), ""
-        lines = []
-        for measure, points, name in (
-                (self.trace_distance, self.traces_now(), "traced points"),
-                (self.contact_distance, self.electrodes, self.name_of_contacts().lower())):
-            if measure is not None:
-                figures_of(measure)
+        lines, reasons = [], []
+        for measure, name, reason in self.measures():
+            reasons.append(reason)
+            if not reason:
+                points = (self.traces_now() if measure == self.trace_distance else
+                          self.electrodes)
                 total = points.GetDataInformation().GetNumberOfPoints()
                 mean = round(measure.Mean, 2) + 0.0  # never -0.00
-                lines.append(f"{measure.Count} of {total} {name} count, {measure.RMS:.2f} mm from "
-                             f"the cortex (RMS), {mean:+.2f} mm in the mean")
+                lines.append(f"{measure.Count} of {total} {name.lower()} count, {measure.RMS:.2f} "
+                             f"mm from the cortex (RMS), {mean:+.2f} mm in the mean")
         errors = self.landmark_errors()
         if errors is not None:
             lines.append(f"{len(errors.errors)} landmarks, {errors.mean:.2f} mm in the mean, "
                          f"{errors.largest:.2f} mm at most")
-        if lines:
+        if lines or any(reasons):  # the doubts say why one failed
             return "", "; ".join(lines)
         if self.lacks_traced():
             return self.lacks_traced(), ""
         if self.traces is None and self.electrodes is None:
             return "traces, electrodes, or landmarks with both positions", ""
         return "a brain, or a surface_level", ""
+
+    def measures(self):
+        """The Trace Distances of the case, updated: triples of the filter, what its points are, and
+        why it measured nothing, a sentence, or an empty text."""
+        for measure, name in ((self.trace_distance, "Traced points"),
+                              (self.contact_distance, self.name_of_contacts())):
+            if measure is not None:
+                yield measure, name, reason_of(figures_of(measure))
 
     def name_of_contacts(self):
         """What the contacts are whose distance is measured. Before a fit no one asked which of them
@@ -258,6 +266,8 @@ class Steps:
         if strays:
             yield "Measure", (f"{strays} traced points belong to no moment: they are of before the "
                               "first, or have no time stamp")
+        for _, name, reason in self.measures():
+            yield "Measure", reason and f"{name} are not measured: {reason}"
         if self.trace_distance or self.contact_distance:
             yield "Measure", self._cavity_doubt()
 

@@ -25,10 +25,10 @@ def figures_of_case(case):
     bent = figures_of(case.bent)
     found = {"largest displacement (mm)": float(bent.MaximumDisplacement),
              "smallest Jacobian determinant": float(bent.MinimumJacobian)}
-    for measure, name in ((case.trace_distance, "traced points"),
-                          (case.contact_distance, "contacts")):
-        if measure is not None:
-            found[f"{name} RMS (mm)"] = float(figures_of(measure).RMS)
+    for measure, _, reason in case.measures():
+        if not reason:
+            name = "traced points" if measure == case.trace_distance else "contacts"
+            found[f"{name} RMS (mm)"] = float(measure.RMS)
     errors, fit = case.landmark_errors(), case.fit_source()
     if case.landmarks_fitted_before():
         pass  # no accuracy follows from them

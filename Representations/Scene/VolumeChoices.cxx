@@ -11,6 +11,7 @@
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -172,6 +173,20 @@ DrawnComponents drawnComponents(vtkVolumeProperty* property, vtkDataArray* scala
   vtkColorTransferFunction* color = property->GetRGBTransferFunction();
   const bool one = count == 1 || color->GetVectorMode() == vtkScalarsToColors::COMPONENT;
   return { count == 1 ? 0 : one ? color->GetVectorComponent() : -1, Coloring::Mapped };
+}
+
+double numberOf(vtkDataArray* scalars, vtkIdType tuple, int component)
+{
+  if (component >= 0)
+  {
+    return scalars->GetComponent(tuple, component);
+  }
+  double squares = 0.0;
+  for (int i = 0; i < scalars->GetNumberOfComponents(); ++i)
+  {
+    squares += scalars->GetComponent(tuple, i) * scalars->GetComponent(tuple, i);
+  }
+  return std::sqrt(squares);
 }
 
 Blend blendOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property)

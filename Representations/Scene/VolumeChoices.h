@@ -8,6 +8,8 @@
 #include "Representations/Scene/RayCastScene.h"
 #include "Representations/Scene/SceneGeometry.h"
 
+#include "vtkType.h"
+
 class vtkDataArray;
 class vtkPlane;
 class vtkVolumeMapper;
@@ -65,6 +67,9 @@ inline StoredScalar mappedFurther(const StoredScalar& first, const StoredScalar&
 /// chooses among independent ones. Dependent ones are colour and opacity (two numbers) or red,
 /// green, blue and opacity (four numbers).
 DrawnComponents drawnComponents(vtkVolumeProperty* property, vtkDataArray* scalars);
+
+/// A component of a tuple; -1: its length.
+double numberOf(vtkDataArray* scalars, vtkIdType tuple, int component);
 
 /// The blend mode. Composite if the chosen one cannot be drawn.
 Blend blendOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property);

@@ -59,11 +59,11 @@ bool ReferenceTextures::update(GpuTask& gpu, const ReferenceVolume& reference,
   const ComparisonChoice& choice, const ComparedVolume& volume, ReferenceScene& scene)
 {
   const ValueLayout layout = layoutOf(reference.grid.dimensions, false);
-  if (!this->Voxels.update(gpu, reference.voxels, layout, FirstComponent))
+  if (!this->Voxels.update(gpu, reference.voxels, layout, FirstComponent, reference.isLabels))
   {
     return false;
   }
-  const int filter = volume.nearest ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
+  const int filter = volume.referenceNearest ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
   this->Voxels.texture()->SetMinificationFilter(filter);
   this->Voxels.texture()->SetMagnificationFilter(filter);
   vtkNew<vtkMatrix4x4> unmoved; // all of them are, alike
@@ -71,6 +71,7 @@ bool ReferenceTextures::update(GpuTask& gpu, const ReferenceVolume& reference,
   scene.place = { this->Voxels.texture(), place.otherFromTexture(reference.grid, layout),
     layout.low, layout.high };
   scene.voxels = layout.dimensions;
+  scene.cubic = volume.referenceCubic;
   scene.fractionFromReference = fractionFromStored(volume.greyRange,
     mappedFurther({ this->Voxels.scale(), this->Voxels.shift() }, volume.valueFromReference));
   scene.fractionFromScalar = fractionFromStored(volume.greyRange, volume.valueFromStored);
@@ -103,6 +104,7 @@ void setReferenceUniforms(Program& program, const ReferenceScene& scene)
   setReferencePlace(program, scene.place);
   setCavityUniforms(program, scene.cavity);
   program.set("referenceVoxels", glm::vec3(scene.voxels));
+  program.set("referenceCubic", scene.cubic ? 1 : 0);
   program.set("fractionFromReference", glm::vec2(scene.fractionFromReference));
   program.set("fractionFromScalar", glm::vec2(scene.fractionFromScalar));
   program.set("transferFromFraction", glm::vec2(scene.transferFromFraction));

@@ -43,7 +43,8 @@ struct ComparedVolume
   StoredScalar valueFromStored;              ///< Of the volume.
   StoredScalar valueFromReference;           ///< See SceneReference.h; used in 3D, too.
   glm::dvec2 transferFromStored{ 1.0, 0.0 }; ///< Coordinate of the colour map: scale, shift.
-  bool nearest = false;                      ///< Voxels of both are drawn as they are.
+  bool referenceNearest = false;             ///< Its voxels are drawn as they are.
+  bool referenceCubic = false;               ///< Cubic filter for it; else as the texture filters.
 };
 
 /// A plane that divides a slice: mm beyond it, on the reference's side, from texture coordinates.
@@ -59,6 +60,7 @@ struct ReferenceScene
   PlacedReference place;
   PlacedCavity cavity;
   glm::ivec3 voxels{ 1 }; ///< Of the reference, a side.
+  bool cubic = false;     ///< Cubic filter; else as the texture filters.
   glm::dvec2 fractionFromReference{ 1.0,
     0.0 }; ///< Stored scalar to its fraction of the range of greys.
   glm::dvec2 fractionFromScalar{ 1.0,
@@ -113,7 +115,7 @@ struct SliceScene
   SceneEvidence evidence;
   SceneResection resection;
   glm::ivec3 voxels{ 1 };            ///< Of the scalars, a side.
-  bool cubic = false;                ///< Cubic filter; else as the textures filter.
+  bool cubic = false;                ///< Cubic filter; else as the texture of scalars filters.
   double opacity = 1.0;              ///< Of everything, 0 to 1.
   bool mapsOpacity = false;          ///< The opacity map counts, too.
   bool blended = false;              ///< Blended from back to front, without writing depth.

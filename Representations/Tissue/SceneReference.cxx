@@ -55,6 +55,9 @@ SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, cons
   reference.tissue.values = { carried.voxels, carried.grid,
     layoutOf(carried.grid.dimensions, false) };
   reference.tissue.wholePoints = carried.grid.dimensions;
+  reference.tissue.labels = carried.isLabels;
+  reference.tissue.nearest =
+    carried.isLabels || own.property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION;
   reference.tissue.mapped = valueFromReference(carried.voxels, own, range);
   return reference;
 }

@@ -16,20 +16,6 @@ namespace brainshift
 namespace
 {
 constexpr double LookedAt = 20000.0; // voxels, about
-
-double numberOf(vtkDataArray* scalars, vtkIdType tuple, int component)
-{
-  if (component >= 0)
-  {
-    return scalars->GetComponent(tuple, component);
-  }
-  double squares = 0.0;
-  for (int i = 0; i < scalars->GetNumberOfComponents(); ++i)
-  {
-    squares += scalars->GetComponent(tuple, i) * scalars->GetComponent(tuple, i);
-  }
-  return std::sqrt(squares);
-}
 }
 
 void countVisible(const DrawnValues& values, vtkVolumeProperty* property, const Lattice* lattice,

@@ -40,9 +40,8 @@ float cubicAt(sampler3D texels, vec3 position, vec3 voxels)
   return mix(alongY.x, alongY.y, pairs.upper.z);
 }
 
-uniform int cubic; // 1: cubic filter; else the texture's own
-
-float filteredAt(sampler3D texels, vec3 position, vec3 voxels)
+// isCubic: 1 or 0, with the texture's own filter.
+float filteredAt(sampler3D texels, vec3 position, vec3 voxels, int isCubic)
 {
-  return cubic == 1 ? cubicAt(texels, position, voxels) : textureLod(texels, position, 0.0).r;
+  return isCubic == 1 ? cubicAt(texels, position, voxels) : textureLod(texels, position, 0.0).r;
 }

@@ -11,6 +11,7 @@ struct Place
 uniform sampler3D reference;       // red: the scalar, as stored
 uniform mat4 referenceFromTexture; // its texture coordinates from the volume's
 uniform vec3 referenceVoxels;      // voxels of the reference, a side
+uniform int referenceCubic;        // 1: cubic filter of it; else the texture's own
 uniform vec3 referenceLow;         // its box, in its texture coordinates
 uniform vec3 referenceHigh;
 // stored scalar to its fraction of the range of greys: scale, shift
@@ -63,7 +64,7 @@ Referenced referenced(vec3 place, float scalar)
 Referenced referenceAt(vec3 deformed)
 {
   vec3 place = (referenceFromTexture * vec4(deformed, 1.0)).xyz;
-  return referenced(place, filteredAt(reference, place, referenceVoxels));
+  return referenced(place, filteredAt(reference, place, referenceVoxels, referenceCubic));
 }
 
 bool inEvenField(vec3 deformed)

@@ -4,6 +4,7 @@
 in vec3 deformed; // texture coordinates
 
 uniform vec3 voxels;     // of the scalars, a side
+uniform int cubic;       // 1: cubic filter of the scalars; else the texture's own
 uniform float opacity;   // of everything
 uniform int mapsOpacity; // 1: the opacity map counts, too
 uniform int selecting;   // 1: only depth is drawn; colours are the background of a selection
@@ -11,7 +12,7 @@ uniform int selecting;   // 1: only depth is drawn; colours are the background o
 void main()
 {
   vec3 rest = restFromDeformed(deformed);
-  float scalar = filteredAt(scalars, rest, voxels);
+  float scalar = filteredAt(scalars, rest, voxels, cubic);
   bool hasTissue = insideVolume(rest) && isNumber(scalar);
   vec4 tissue = tissueOf(scalar);
   vec4 seen = vec4(markedInSlice(ownColorOf(tissue, rest), deformed, rest), tissue.a);

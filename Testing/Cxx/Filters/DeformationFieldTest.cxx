@@ -2,8 +2,13 @@
 // Proves that Deformation Field holds PointMap's displacements and determinants, both ways, on
 // every kind of grid, rotated ones included; and that it refuses grids it cannot make.
 #include "Common/FieldDirection.h"
+#include "Common/FieldWord.h"
+#include "Common/LabelTable.h"
+#include "Common/WorldAxes.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
+#include "vtkCompareVolumes.h"
 #include "vtkDeformationField.h"
+#include "vtkDeformationLattice.h"
 #include "vtkInvertDisplacementField.h"
 
 #include <vtkFieldData.h>
@@ -14,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 using namespace brainshift;
@@ -263,6 +269,51 @@ TEST_F(DeformationField, CarriesNothingOfWhatBentTheVolume)
   invert->SetInputData(tagged);
   invert->Update();
   expectNone(invert->GetOutput());
+}
+
+// The values of a field are mm, and no labels of the volume.
+TEST_F(DeformationField, CarriesNothingOfTheVolumeButItsSides)
+{
+  auto volume = volumeOn(this->Volume, VTK_UNSIGNED_CHAR, [](vtkIdType i) { return i % 3; });
+  attachLabels(volume, { { 2, "Thalamus", { 10, 20, 30 }, "" } });
+  markLabelMap(volume, true);
+  setFieldWord(volume, "Unit", "HU");
+  nameWorldAxes(volume, WorldAxes::RAS);
+  this->Bend->SetInputData(volume);
+  vtkNew<vtkCompareVolumes> compare;
+  compare->SetInputConnection(this->Bend->GetOutputPort());
+  compare->SetReferenceConnection(this->Bend->GetOutputPort());
+  vtkNew<vtkDeformationLattice> lattice;
+  vtkNew<vtkInvertDisplacementField> invert;
+  vtkNew<vtkInvertDisplacementField> tagged;
+  this->Filter->SetInputConnection(compare->GetOutputPort());
+  lattice->SetInputConnection(compare->GetOutputPort());
+  invert->SetInputConnection(this->Filter->GetOutputPort());
+  vtkImageData* field = this->run();
+  EXPECT_TRUE(isLabelMap(vtkImageData::SafeDownCast(compare->GetOutputDataObject(0))));
+  auto labelled = vtkSmartPointer<vtkImageData>::New(); // as an earlier release saved it
+  labelled->ShallowCopy(field);
+  markLabelMap(labelled, true);
+  tagged->SetInputData(labelled);
+  for (vtkImageAlgorithm* filter :
+    { static_cast<vtkImageAlgorithm*>(this->Filter), static_cast<vtkImageAlgorithm*>(lattice),
+      static_cast<vtkImageAlgorithm*>(invert), static_cast<vtkImageAlgorithm*>(tagged) })
+  {
+    filter->Update();
+    EXPECT_FALSE(isLabelMap(filter->GetOutput()));
+    EXPECT_EQ(worldAxesOf(filter->GetOutput()), WorldAxes::RAS);
+    std::set<std::string> names;
+    for (int i = 0; i < filter->GetOutput()->GetFieldData()->GetNumberOfArrays(); ++i)
+    {
+      names.insert(filter->GetOutput()->GetFieldData()->GetArrayName(i));
+    }
+    std::set<std::string> expected{ "WorldAxes", "DisplacementDirection" };
+    if (filter == static_cast<vtkImageAlgorithm*>(lattice))
+    {
+      expected.insert({ "FFDKernel", "FFDSamples" });
+    }
+    EXPECT_EQ(names, expected) << filter->GetClassName();
+  }
 }
 
 TEST_F(DeformationField, GridsThatCannotBeMadeAreRefused)

@@ -152,6 +152,7 @@ TEST(InvertDisplacementField, FoldsAndWrongInputsAreTold)
     fieldOn(Rotated, [](const glm::dvec3&) { return glm::dvec3(std::nan(""), 0.0, 0.0); }));
   invert->Update();
   EXPECT_NE(errors.take().find("not finite"), std::string::npos);
+  EXPECT_TRUE(std::isnan(invert->GetLargestError())) << "not that of the field before";
   invert->SetInputData(volumeOn(Rotated, VTK_FLOAT, [](vtkIdType) { return 1.0; }));
   invert->Update();
   EXPECT_NE(errors.take().find("3 components"), std::string::npos);

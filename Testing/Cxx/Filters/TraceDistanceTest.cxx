@@ -189,6 +189,47 @@ TEST_F(TraceDistance, NumbersAreThoseOfTheArray)
   EXPECT_EQ(numberOf(traced, "Percentile95"), this->Filter->GetPercentile95());
 }
 
+// A figure that stays would be taken for one of what is there now.
+TEST_F(TraceDistance, LeavesNoFigureOfARunBeforeOneThatFailed)
+{
+  Errors errors(this->Filter);
+  Errors above(this->Bend);
+  const auto set = pointsAt(this->around(20));
+  vtkTraceDistance* filter = this->Filter;
+  const auto expectGood = [&] {
+    this->run(set);
+    EXPECT_STREQ(filter->GetProblem(), "");
+    EXPECT_EQ(filter->GetCount(), 20);
+    EXPECT_GT(filter->GetRMS(), 0.5) << "mm";
+    EXPECT_GT(filter->GetHistogram()->GetValue(0), 0.0);
+    EXPECT_EQ(filter->GetRMSAfterStrokes()->GetNumberOfTuples(), 1);
+  };
+  const auto expectNone = [&] {
+    this->run(set);
+    EXPECT_STRNE(filter->GetProblem(), "");
+    EXPECT_EQ(filter->GetCount(), 0);
+    EXPECT_TRUE(std::isnan(filter->GetMean()) && std::isnan(filter->GetRMS()));
+    EXPECT_TRUE(std::isnan(filter->GetPercentile95()));
+    EXPECT_EQ(filter->GetHistogram()->GetValue(0), 0.0);
+    EXPECT_EQ(filter->GetRMSAfterStrokes()->GetNumberOfTuples(), 0);
+  };
+  EXPECT_STRNE(filter->GetProblem(), "") << "nothing ran";
+  expectGood();
+  filter->SetThreshold(900.0);
+  expectNone();
+  EXPECT_NE(errors.take().find("Threshold is 900 and gives no surface"), std::string::npos);
+  EXPECT_NE(std::string(filter->GetProblem()).find("Threshold is 900"), std::string::npos);
+  filter->SetThreshold(0.0);
+  expectGood();
+  vtkSmartPointer<vtkDataObject> good = this->Bend->GetInput();
+  this->Bend->SetInputData(imageOn(plainGrid(glm::ivec3(1), glm::dvec3(1.0)))); // no volume
+  expectNone();
+  EXPECT_EQ(errors.take(), "") << "the filter above said what failed";
+  EXPECT_NE(above.take(), "");
+  this->Bend->SetInputData(good);
+  expectGood();
+}
+
 TEST(TraceStatistics, OfKnownDistances)
 {
   const TraceStatistics some = statisticsOf({ -3.0, 1.0, NaN, 4.0, -2.0 });

@@ -43,6 +43,33 @@ def test_lattices_come_back():
         assert numpy.abs(baked(loaded) - baked(saved)).max() > 20.0, "strokes add to it"
 
 
+def test_a_lattice_tells_of_its_mask():
+    """Without the mask other tissue moves, and with it the picture is the same."""
+    half = numpy.zeros(ball().shape, numpy.uint8)
+    half[:, :, :16] = 1
+    mask = {"Mask": volume(half), "MaskGrowth": 0.0, "Feather": 3.0}
+    saved, name = bent(**mask), scratch("masked.vti")
+    brainshift.save_lattice(saved, name)
+    for settings, words in ((mask, ""), ({}, "This deformation has no mask"),
+                            ({**mask, "Feather": 9.0}, "This deformation has a mask that lets")):
+        loaded = bent(strokes=[], **settings)
+        with messages() as said:
+            brainshift.load_lattice(loaded, name)
+            away = numpy.abs(baked(loaded) - baked(saved)).max()
+        if words:
+            assert away > 5.0, away
+            assert_says(said.text, "The base lattice was drawn with a mask that lets", words)
+        else:
+            assert away < 1e-3 and "drawn with" not in said.text, (away, said.text)
+    plain = scratch("plain.vti")
+    brainshift.save_lattice(bent(), plain)
+    with messages() as said:
+        loaded = bent(strokes=[], **mask)
+        brainshift.load_lattice(loaded, plain)
+        loaded.UpdatePipeline()
+    assert "drawn with" not in said.text, "a mask of one's own choice"
+
+
 def test_dense_fields_come_back():
     expected = baked(bent())
     for ending in FORMATS:

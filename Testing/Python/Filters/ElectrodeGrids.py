@@ -138,6 +138,9 @@ def test_a_contact_that_floats_is_named():
     assert list(numpy.nonzero(found.off)[0]) == [7], found.floating
     assert 3.5 < found.floating[7] < 6.5, found.floating[7]
     assert "G8" in found.warning and "above" in found.warning, found.warning
+    used = numpy.delete(found.leave_one_out, 7).mean()
+    assert found.leave_one_out.mean() > used + 0.1, (found.leave_one_out, used)
+    assert f"leave-one-out error {used:.2f} mm (mean)" in repr(found), found
 
 
 def test_bids_columns_give_the_shape():

@@ -88,6 +88,16 @@ def test_what_was_not_measured_has_no_deviation():
         assert (output(moments).GetFieldData().GetArray("FFDDeviations") is not None) == known, time
 
 
+def test_between_moments_no_strokes_are_named():
+    """A figure between two moments would be noted as one of the strokes of the first."""
+    source = volume(ball())
+    moments = Moments(Input=[bent(source, UP), bent(source, DOWN), source])
+    for time, known in ((0.0, True), (0.5, False), (1.0, True), (1.5, False), (2.0, False)):
+        moments.UpdatePipeline(time)
+        marks = output(moments).GetFieldData().GetAbstractArray("FFDStrokeMarks")
+        assert (marks is not None) == known, time
+
+
 def test_strokes_at_a_moment_are_followed():
     source = volume(ball())
     first, second = bent(source, UP), bent(source, DOWN)

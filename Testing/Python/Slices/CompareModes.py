@@ -3,9 +3,11 @@
 # the baked volume and the voxels of the reference say. A cavity stays grey. Show of Compare
 # Volumes shows one of them alone without sending a voxel. State files keep all of it.
 import numpy
-from brainshift_testing import (load_plugin, picture, run_tests, scratch, view_along, volume)
+from brainshift_testing import (load_plugin, output, picture, run_tests, scratch, show_volume,
+                                view_along, volume)
 from paraview import simple
 from slices_testing import color_grey, flat_view, pixel_positions, show_slices, trilinear
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -214,6 +216,60 @@ def test_interpolation_is_the_same_for_both():
             compare.Show = show
             pictures.append(compared_picture(compare, "None", SliceInterpolation=interpolation))
         assert numpy.abs(pictures[0] - pictures[1]).max() <= 1.5 / 255, interpolation
+
+
+STEPS = [0, 1, 0, 0, 4, 1, 0, 0, 5, 0, 1, 0, 12, 0, 1, 0, 13, 0, 0, 1, 17, 0, 0, 1]
+
+
+def as_labels(source, marked=True):
+    """The source, marked as a reader of label maps does."""
+    mark = vtkUnsignedCharArray()
+    mark.SetName("IsLabelMap")
+    mark.InsertNextValue(1)
+    if marked:
+        output(source).GetFieldData().AddArray(mark)
+        source.GetClientSideObject().Modified()
+    return source
+
+
+def green(image):
+    """Pixels of values from 5 to 12 under the map STEPS."""
+    return int(((image[:, :, 1] > image[:, :, 0]) & (image[:, :, 1] > image[:, :, 2])).sum())
+
+
+def test_labels_of_a_reference_are_never_blended():
+    """Between the labels 0 and 17 no pixel has the colour of 8, in slices nor in 3D."""
+    own = smooth(2) * 0.17
+    for marked in (False, True):
+        labels = as_labels(volume((smooth(3) > 50) * numpy.uint8(17)), marked)
+        compare = CompareVolumes(Input=volume(own), Reference=labels, Show="Reference")
+        for interpolation in ("Nearest", "Linear", "Cubic"):
+            view = flat_view(2, MIDDLE, HALF)
+            display = show_slices(compare, view, ("Axial",), MIDDLE, 0.0, 17.0)
+            display.LookupTable.RGBPoints = STEPS
+            display.SliceInterpolation = interpolation
+            image = picture(view)
+            assert min((image[:, :, 0] == 1).sum(), (image[:, :, 2] == 1).sum()) > 1000
+            blended = not marked and interpolation != "Nearest"
+            assert (green(image) > 100) == blended, (marked, interpolation, green(image))
+            Delete(view)
+        view = view_along((0.2, 0.3, -1), MIDDLE, 90.0, half_height=20.0)
+        view.MultiSamples = 0
+        show_volume(compare, view, "Deformed Volume", STEPS, [0, 1, 0.5, 0, 17, 1, 0.5, 0])
+        image = picture(view)
+        assert (image[:, :, 0] > 0.9).sum() > 1000
+        assert (green(image) > 100) != marked, (marked, green(image))
+        Delete(view)
+
+
+def test_a_scan_beside_labels_stays_smooth():
+    """The reference of a label map is read as it is without one."""
+    pictures = []
+    for marked in (False, True):
+        compare = CompareVolumes(Input=as_labels(volume(smooth(2)), marked),
+                                 Reference=volume(smooth(3)), Show="Reference")
+        pictures.append(compared_picture(compare, "None", SliceInterpolation="Cubic"))
+    assert (pictures[0] == pictures[1]).all()
 
 
 def test_show_sends_no_voxel():

@@ -8,7 +8,8 @@ from slices_testing import PLANES, show_slices
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from paraview.simple import Delete, FreeFormDeformation  # noqa: E402
+from paraview.simple import (  # noqa: E402
+    ColorBy, Delete, FreeFormDeformation, GetColorTransferFunction, GetOpacityTransferFunction)
 
 SIZE = 120
 MIDDLE = numpy.array((16.0, 16.0, 16.0))
@@ -134,6 +135,28 @@ def test_what_cannot_be_seen_is_not_picked():
     assert brainshift.pick(display, view, SIZE // 2, SIZE // 2 - 30) is not None
     assert brainshift.pick(display, view, -1, 5) is None
     assert brainshift.pick(display, view, SIZE, 5) is None
+    Delete(view)
+
+
+def test_the_drawn_component_is_what_can_be_seen():
+    """A colour map by the second component, or by the length of both, says what is transparent."""
+    view = view_along((0, 0, -1), MIDDLE, 100.0, half_height=30.0, size=SIZE)
+    voxels = numpy.zeros((33, 33, 33, 2), numpy.float32)
+    voxels[..., 1] = 100.0
+    voxels[8:24, 8:24, 8:24, 1] = 0.0
+    voxels[8:24, 8:24, 10:14, 0] = 100.0
+    display = show_slices(volume(voxels), view, ("Axial",), MIDDLE)
+    display.MapSliceOpacity = 1
+    for name in ("1", "Magnitude"):
+        ColorBy(display, ("POINTS", "Intensity", name), separate=True)
+        color = GetColorTransferFunction("Intensity", display, separate=True)
+        color.RGBPoints = [0, 1, 1, 1, 100, 1, 1, 1]
+        opacity = GetOpacityTransferFunction("Intensity", display, separate=True)
+        opacity.Points = [0, 0, 0.5, 0, 50, 0, 0.5, 0, 51, 1, 0.5, 0, 100, 1, 0.5, 0]
+        check(view, display, lambda tissue: abs(tissue[2] - 16) < 1e-5, 10)
+        seen = {x: brainshift.pick(display, view, SIZE // 2 + 2 * (x - 16), SIZE // 2) is not None
+                for x in (4, 12, 20)}
+        assert seen == {4: True, 12: name == "Magnitude", 20: False}, (name, seen)
     Delete(view)
 
 

@@ -305,6 +305,24 @@ def test_the_resection_of_a_case_is_written():
     assert image.GetScalarRange() == (0.0, 2.0)
 
 
+def test_a_state_keeps_how_the_resection_was_measured():
+    """A report from a loaded state has the interval that was asked for, to the digit."""
+    clear()
+    case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),
+                           traces=path("pointer.csv"), tumour=path("sub-1_Tumor.nii.gz"),
+                           cavity=path("cavity.nii.gz"))
+    case.run("Fit")
+    found = repr(case.resect(fields=numpy.int64(60), level=0.95, seed=3))
+    assert_says(found, "95 % interval", "of 60 fields")
+    simple.SaveState(scratch("measured.pvsm"))
+    clear()
+    simple.LoadState(scratch("measured.pvsm"))
+    again, = brainshift.Case.all()
+    assert again.resection is None and repr(again.known_resection()) == found
+    again.resect(fields=50)
+    assert again._left_by == {"fields": 50}
+
+
 def test_pictures_of_the_resection_follow_the_roles():
     clear()
     case = brainshift.Case(volume=path("sub-1_T1w.nii.gz"), brain=path("sub-1_brainmask.nii.gz"),

@@ -6,11 +6,11 @@ import os
 import shutil
 
 import numpy
-from brainshift_testing import assert_says, load_plugin, run_tests, scratch
+from brainshift_testing import assert_says, load_plugin, run_tests, scratch, volume
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from brainshift import reporting  # noqa: E402
+from brainshift import reporting, scenes  # noqa: E402
 from brainshift.worker import figures_of_case  # noqa: E402
 from paraview import simple  # noqa: E402
 from patient_testing import MIDDLE, RADIUS, TOP, make_patient, sunk  # noqa: E402
@@ -181,6 +181,33 @@ def test_doubts_of_grids_and_cavity_stay_beside_landmarks():
         case.landmarks = landmarks
         assert case.fits_landmarks() == bool(landmarks)
         assert_says(found(case, "Fit").found, name, "above", "The reference was moved")
+
+
+def test_no_figure_of_a_measurement_that_failed():
+    """Otherwise the step, the report and the batch name the distance of another cortex."""
+    case = begun(traces="pointer.csv")
+    good = found(case, "Measure")
+    assert good.state == "done", good
+    assert_says(good.found, "count")
+    assert any(name.startswith("Traced points") for name, *_ in reporting._distances(case))
+    case.brain_labels = [77]
+    step = found(case, "Measure")
+    assert step.state == "ready" and "(RMS)" not in step.found, step
+    assert_says(step.found, "Traced points are not measured: Label is 77 and gives no surface")
+    assert case.doubtful() == {"Measure"}
+    assert reporting._distances(case) == []
+    assert any("Label is 77" in text for text in reporting._warnings(case))
+    assert not any("RMS" in name for name in figures_of_case(case))
+    assert scenes.traces(case, (100, 100)) is None
+    case.brain_labels = []
+    assert found(case, "Measure") == good
+    away = volume(numpy.ones((3, 3, 3), numpy.uint8), origin=(900.0, 900.0, 900.0))
+    brainshift.save_volume(away, path("elsewhere.mha"), world="RAS")
+    case.cavity = path("elsewhere.mha")
+    assert found(case, "Measure").state == "ready"
+    assert_says(found(case, "Measure").found, "not measured")
+    case.cavity = None
+    assert found(case, "Measure") == good
 
 
 def test_strokes_that_are_off_are_no_edits():

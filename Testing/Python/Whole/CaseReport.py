@@ -84,6 +84,7 @@ def test_one_page_has_all_of_it():
     page = text_of(brainshift.report(case, scratch("report.html")))
     assert sorted(name for name, _ in simple.GetSources()) == sources
     assert len(simple.GetRenderViews()) == views
+    assert case.fit_source().Evidence == 0, "the fit is as it was"
     Balanced().feed(page)
     assert not re.search(r"(src|href)=\"(?!data:)", page), "the page needs another file"
     assert "<script" not in page
@@ -131,6 +132,40 @@ def test_the_pictures_show_what_they_say():
     assert purple > 4500, purple
     for picture, plain in zip(shown[13:16], shown[5:8]):
         assert numpy.abs(picture - plain).mean() > 1.0, "no evidence is drawn"
+
+
+def test_the_deviation_is_of_what_is_drawn():
+    """Strokes and Strength take tissue away from the fit, and count as in the pictures; a fit for
+    other settings says nothing."""
+    simple.ResetSession()
+    load_plugin()
+    case = brainshift.Case(volume=f"{FOLDER}/sub-1_T1w.nii.gz", traces=f"{FOLDER}/pointer.csv",
+                           brain=f"{FOLDER}/sub-1_brainmask.nii.gz")
+    case.run("Fit")
+    fit, place = brainshift.Fit(case.fit_source()), numpy.array([scenes.focus_of(case)])
+
+    def shown():
+        rows, _ = reporting._fit_rows(case)
+        return next((value, reporting._values([(name, value, *rest)])) for name, value, *rest in
+                    rows if name == "Deviation in the slices' middle")
+
+    def expect(rest, away):
+        value, page = shown()
+        deviation = numpy.hypot(fit.deviation(rest)[0], away / numpy.sqrt(3.0))
+        assert abs(value - deviation) < 0.01, (value, deviation)
+        assert_says(page, f"{deviation:.2f} mm")
+    expect(brainshift.rest_from_deformed(case.bent, place), 0.0)
+    case.bent.Strength = 0.0
+    sunk = numpy.linalg.norm(fit.measured_from_rest(place) - place)
+    assert sunk > 2.0, sunk
+    expect(place, sunk)
+    case.bent.Strength = 1.0
+    assert reporting._evidence(case, place[0])
+    case.bent.Samples = 2
+    _, page = shown()
+    assert_says(page, ">not known<")
+    assert reporting._evidence(case, place[0]) == []
+    assert case.fit_source().Evidence == 0
 
 
 def test_hashes_are_of_all_that_is_read():
