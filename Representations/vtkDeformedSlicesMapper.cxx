@@ -8,9 +8,10 @@
 #include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Picture/MovingQuality.h"
+#include "Representations/Picture/PictureCapture.h"
 #include "Representations/Scene/Remarks.h"
 #include "Representations/Scene/SceneFrame.h"
-#include "Representations/Slices/SliceDrawer.h"
+#include "Representations/Slices/SliceBricks.h"
 #include "Representations/Tissue/FinestLevel.h"
 #include "Representations/Tissue/ResectionTextures.h"
 #include "Representations/Tissue/SceneReference.h"
@@ -29,11 +30,6 @@
 
 using namespace brainshift;
 
-namespace
-{
-constexpr double NoLimit = 0.0; // of memory
-}
-
 struct vtkDeformedSlicesMapper::Device
 {
   TissueTextures Tissue;
@@ -44,11 +40,13 @@ struct vtkDeformedSlicesMapper::Device
   SliceDrawer Drawer;
   GpuMemory Memory;
   FinestLevel Level;
+  SliceBricks Bricks;
   DrawnSlices Drawn;
   ValueLayout DrawnLayout; // that its texture coordinates are of
 
   void Release(vtkWindow* window)
   {
+    this->Bricks.releaseGraphicsResources(window);
     this->Tissue.releaseGraphicsResources(window);
     this->Reference.releaseGraphicsResources(window);
     this->Deformation.releaseGraphicsResources(window);
@@ -154,10 +152,11 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   gpu.moving = isMoving(window->GetDesiredUpdateRate());
   takeOutOfMemory(); // errors of others
   const auto draw = [&] {
-    return device.Deformation.askForMemory(gpu, device.Memory, this->NeedOf(tissue), NoLimit) &&
+    return device.Deformation.askForMemory(
+             gpu, device.Memory, this->NeedOf(tissue), this->MemoryLimit) &&
       this->DrawPlanes(gpu, { renderer, volume }, device, tissue);
   };
-  const bool drawn = device.Level.draw(gpu, tissue, this->NeedOf(tissue), NoLimit, [&] {
+  const bool drawn = device.Level.draw(gpu, tissue, this->NeedOf(tissue), this->MemoryLimit, [&] {
     const bool done = draw();
     if (takeOutOfMemory())
     {
@@ -166,15 +165,29 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     }
     return done;
   });
+  if (!drawn)
+  {
+    device.Bricks.rest();
+  }
+  this->Tell(gpu);
+  problem = gpu.problem;
+  return drawn;
+}
+
+void vtkDeformedSlicesMapper::Tell(const GpuTask& gpu)
+{
   for (const std::string& remark : gpu.remarks)
   {
-    if (this->Internal->Told.insert(remark).second && isNewRemark(image, remark))
+    if (!remark.empty() && this->Internal->Told.insert(remark).second &&
+      isNewRemark(this->GetDataSetInput(), remark))
     {
       warn(this, remark);
     }
   }
-  problem = gpu.problem;
-  return drawn;
+  for (const std::string& warning : gpu.warnings)
+  {
+    warn(this, warning);
+  }
 }
 
 MemoryNeed vtkDeformedSlicesMapper::NeedOf(const TissueRequest& tissue)
@@ -219,6 +232,7 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
   state.Property = tissue.property;
   scene.selecting = seen.renderer->GetSelector() != nullptr;
   scene.blended = this->IsTranslucent() && !scene.selecting;
+  this->AddBricks(gpu, seen, device, tissue, scene);
   return device.Drawer.draw(gpu.window, scene, gpu.counters) ||
     gpu.fail("The slices' shader does not compile on this GPU");
 }
@@ -226,6 +240,35 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
 bool vtkDeformedSlicesMapper::IsCubic(const TissueRequest& tissue) const
 {
   return this->Interpolation == Cubic && !CategoryScalars::areWanted(tissue.property);
+}
+
+// Finer voxels where the slices are, as far as they are there. A selection asks for none.
+void vtkDeformedSlicesMapper::AddBricks(GpuTask& gpu, const DrawnVolume& seen, Device& device,
+  const TissueRequest& tissue, SliceScene& scene)
+{
+  if (scene.selecting)
+  {
+    return;
+  }
+  BrickView view = brickViewOf(seen, tissue.values, this->NeedOf(tissue), this->MemoryLimit);
+  glm::ivec2 origin;
+  seen.renderer->GetTiledSizeAndOrigin(&view.pixels.x, &view.pixels.y, &origin.x, &origin.y);
+  PictureCapture& capture = PictureCapture::current();
+  std::optional<SliceBricks::Clock::time_point> end;
+  if (this->WaitsForDetail && !gpu.moving)
+  {
+    capture.join(gpu.window, &device, isLeftEye(seen));
+    end = capture.deadline();
+  }
+  else
+  {
+    capture.end();
+  }
+  device.Bricks.update(gpu, view, { tissue, device.Tissue }, scene, end);
+  if (end)
+  {
+    capture.reportIfCoarse(gpu, device.Bricks.bricks());
+  }
 }
 
 bool vtkDeformedSlicesMapper::UploadReference(
@@ -381,16 +424,27 @@ void vtkDeformedSlicesMapper::ReleaseGraphicsResources(vtkWindow* window)
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
+const Counters& vtkDeformedSlicesMapper::CountDetail()
+{
+  Counters& count = this->Internal->Count;
+  resetDetail(count);
+  this->Internal->Devices.visitAnyhow(
+    [&](const Device& device) { device.Bricks.bricks().count(count); });
+  return count;
+}
+
 const Counters& vtkDeformedSlicesMapper::GetCounters()
 {
   Counters& count = this->Internal->Count;
   count.gpuScalarBytes = 0;
   count.gpuOtherBytes = 0;
+  this->CountDetail();
   this->Internal->Devices.visit([&](Device& device) {
-    count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
+    count.gpuScalarBytes += textureBytes(device.Tissue.scalars()) +
+      textureBytes({ device.Bricks.bricks().textures() });
     count.gpuOtherBytes += textureBytes({ device.Reference.textures(),
       device.Tissue.otherTextures(), device.Deformation.field().textures(),
-      { device.Evidence.texture() }, device.Resected.textures() });
+      { device.Evidence.texture() }, device.Resected.textures(), device.Bricks.images() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
   return count;
@@ -417,5 +471,7 @@ void vtkDeformedSlicesMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "FullGradient: " << this->FullGradient << "\n"
      << indent << "SimilarityWindow: " << this->SimilarityWindow << "\n"
      << indent << "WipePosition: " << this->WipePosition[0] << " " << this->WipePosition[1] << " "
-     << this->WipePosition[2] << "\n";
+     << this->WipePosition[2] << "\n"
+     << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
+     << indent << "WaitsForDetail: " << this->WaitsForDetail << "\n";
 }

@@ -177,6 +177,19 @@ public:
   vtkGetVector3Macro(WipePosition, double);
   ///@}
 
+  ///@{
+  /** Most memory of the GPU to use, MiB. 0 (default): all that the driver gives. */
+  vtkSetClampMacro(MemoryLimit, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MemoryLimit, double);
+  ///@}
+
+  ///@{
+  /** A still picture waits for the bricks of a finer level, as in vtkDeformedVolumeMapper. Default
+   * false. */
+  void SetWaitsForDetail(bool waits) { this->WaitsForDetail = waits; }
+  vtkGetMacro(WaitsForDetail, bool);
+  ///@}
+
   /** Whether the planes are see-through. */
   bool IsTranslucent() const { return this->MapOpacity || this->Opacity < 1.0; }
 
@@ -216,6 +229,10 @@ public:
   /** Counts of the mapper's work since it was made, and its memory on the GPU now. */
   const brainshift::Counters& GetCounters();
 
+  /** The same, of which only what bricks of a finer level tell is up to date. The GPU is not
+   * asked. */
+  const brainshift::Counters& CountDetail();
+
 protected:
   vtkDeformedSlicesMapper();
   ~vtkDeformedSlicesMapper() override;
@@ -233,8 +250,11 @@ private:
   bool DrawPlanes(brainshift::GpuTask& gpu, const brainshift::DrawnVolume& seen, Device& device,
     const brainshift::TissueRequest& tissue);
   bool IsCubic(const brainshift::TissueRequest& tissue) const;
+  void AddBricks(brainshift::GpuTask& gpu, const brainshift::DrawnVolume& seen, Device& device,
+    const brainshift::TissueRequest& tissue, brainshift::SliceScene& scene);
   bool UploadReference(brainshift::GpuTask& gpu, Device& device,
     const brainshift::TissueRequest& tissue, brainshift::SliceScene& scene);
+  void Tell(const brainshift::GpuTask& gpu);
   void PlacePlanes(const brainshift::DrawnValues& values, brainshift::SliceScene& scene);
   void UpdateDeformation(vtkImageData* image);
   bool IsSeenAt(const brainshift::ValueLayout& drawn, const glm::dvec3& texture); // deformed frame
@@ -255,6 +275,8 @@ private:
   double FullGradient = 0.3;
   double SimilarityWindow = 12.0;
   double WipePosition[3] = { 0.0, 0.0, 0.0 };
+  double MemoryLimit = 0.0;
+  bool WaitsForDetail = false;
 
   std::unique_ptr<State> Internal;
 };

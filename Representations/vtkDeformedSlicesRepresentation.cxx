@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/Guard.h"
 #include "Representations/Slices/OrientationMarks.h"
+#include "Representations/Window/SavedPicture.h"
 
+#include "vtkCommand.h"
 #include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedSlicesRepresentation.h"
 #include "vtkImageData.h"
@@ -200,6 +202,11 @@ void vtkDeformedSlicesRepresentation::SetSliceInterpolation(int interpolation)
   this->GetDeformedSlicesMapper()->SetInterpolation(interpolation);
 }
 
+void vtkDeformedSlicesRepresentation::SetMemoryLimit(double mebibytes)
+{
+  this->GetDeformedSlicesMapper()->SetMemoryLimit(mebibytes);
+}
+
 void vtkDeformedSlicesRepresentation::SetOpacity(double opacity)
 {
   this->GetDeformedSlicesMapper()->SetOpacity(opacity);
@@ -301,11 +308,18 @@ void vtkDeformedSlicesRepresentation::DeliverAxes(
   }
 }
 
+void vtkDeformedSlicesRepresentation::PreparePicture()
+{
+  this->GetDeformedSlicesMapper()->SetWaitsForDetail(brainshift::isToBeSaved(this->GetView()));
+}
+
 bool vtkDeformedSlicesRepresentation::AddToView(vtkView* view)
 {
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
   {
     renderView->GetNonCompositedRenderer()->AddViewProp(this->Marks);
+    this->RenderStart = renderView->GetRenderer()->AddObserver(
+      vtkCommand::StartEvent, this, &vtkDeformedSlicesRepresentation::PreparePicture);
   }
   return this->Superclass::AddToView(view);
 }
@@ -315,6 +329,7 @@ bool vtkDeformedSlicesRepresentation::RemoveFromView(vtkView* view)
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
   {
     renderView->GetNonCompositedRenderer()->RemoveViewProp(this->Marks);
+    renderView->GetRenderer()->RemoveObserver(this->RenderStart);
   }
   return this->Superclass::RemoveFromView(view);
 }

@@ -39,6 +39,7 @@ public:
   void SetSlicePosition(double x, double y, double z);
   void SetCrosshair(bool show);
   void SetSliceInterpolation(int interpolation);
+  void SetMemoryLimit(double mebibytes);
   void SetOpacity(double opacity);
   void SetMapOpacity(bool map);
   void SetComparison(int comparison);
@@ -85,6 +86,9 @@ private:
   vtkDeformedSlicesRepresentation(const vtkDeformedSlicesRepresentation&) = delete;
   void operator=(const vtkDeformedSlicesRepresentation&) = delete;
 
+  // Called when the renderer of the view starts a picture.
+  void PreparePicture();
+
   // The process that shows the picture draws the letters. It may not have the volume: the
   // meaning of the axes is sent there separately.
   void DeliverAxes(vtkInformationRequestKey* request, vtkInformation* input);
@@ -97,6 +101,7 @@ private:
   // Sets the axes of the marks: those that the user chose, or else those of the volume.
   void UpdateMarks();
 
+  unsigned long RenderStart = 0; // observer of the renderer
   bool OrientationMarks = false;
   int WorldAxes = 0;
   int AttachedAxes = 0;          // those of the volume

@@ -514,9 +514,7 @@ void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
 const Counters& vtkDeformedVolumeMapper::CountDetail()
 {
   Counters& count = this->Internal->Count;
-  count.gpuLevel = -1;
-  count.gpuBricks = count.gpuBricksWanted = count.gpuBricksRead = 0;
-  count.gpuBricksLackRoom = count.gpuBricksComing = 0;
+  resetDetail(count);
   this->Internal->Devices.visitAnyhow(
     [&](const VolumeDevice& device) { device.bricks().count(count); });
   return count;

@@ -220,7 +220,10 @@ double* vtkDeformedVolumeReport::GetSameTissue()
 int* vtkDeformedVolumeReport::GetDetail()
 {
   vtkDeformedVolumeMapper* mapper = this->Mapper();
-  const brainshift::Counters& count = mapper ? mapper->CountDetail() : brainshift::Counters();
+  vtkDeformedSlicesMapper* slices = this->Slices();
+  const brainshift::Counters count = mapper ? mapper->CountDetail()
+    : slices                                ? slices->CountDetail()
+                                            : brainshift::Counters();
   this->Detail[0] = static_cast<int>(count.gpuLevel);
   this->Detail[1] = static_cast<int>(count.gpuBricks);
   this->Detail[2] = static_cast<int>(count.gpuBricksWanted);

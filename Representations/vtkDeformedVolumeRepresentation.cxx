@@ -5,6 +5,7 @@
 #include "Representations/Picture/SelectionCover.h"
 #include "Representations/Window/EdgeSmoothing.h"
 #include "Representations/Window/MovingWindow.h"
+#include "Representations/Window/SavedPicture.h"
 #include "Representations/Window/VisibleTissue.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
@@ -18,19 +19,6 @@
 #include "vtkVolumeProperty.h"
 
 #include <cmath>
-
-namespace
-{
-// ParaView knows whether a picture is to be saved, and tells the view's subclasses alone.
-struct CapturingView : vtkPVView
-{
-  static bool isCapturing(vtkPVView* view)
-  {
-    bool (vtkPVView::*ask)() = &CapturingView::GetInCaptureScreenshot;
-    return view && (view->*ask)();
-  }
-};
-}
 
 vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
 
@@ -217,8 +205,7 @@ void vtkDeformedVolumeRepresentation::UpdateMapperParameters()
 void vtkDeformedVolumeRepresentation::PreparePicture(vtkObject* caller, unsigned long, void*)
 {
   auto* renderer = static_cast<vtkRenderer*>(caller);
-  this->GetDeformedVolumeMapper()->SetWaitsForDetail(
-    CapturingView::isCapturing(vtkPVView::SafeDownCast(this->GetView())));
+  this->GetDeformedVolumeMapper()->SetWaitsForDetail(brainshift::isToBeSaved(this->GetView()));
   if (brainshift::selectsPoints(renderer) && this->Actor->GetVisibility())
   {
     this->GetDeformedVolumeMapper()->CoverSelection(renderer);

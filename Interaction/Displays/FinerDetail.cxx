@@ -20,7 +20,7 @@
 #include <QMainWindow>
 #include <QStatusBar>
 
-#include <cstring>
+#include <string>
 #include <utility>
 
 namespace brainshift
@@ -47,8 +47,8 @@ bool hasLevels(pqDataRepresentation* display)
 {
   vtkPVDataInformation* data = display->isVisible() ? display->getInputDataInformation() : nullptr;
   vtkSMPropertyHelper kind(display->getProxy(), "Representation", /*quiet*/ true);
-  return data && kind.GetNumberOfElements() == 1 &&
-    std::strcmp(kind.GetAsString(), "Deformed Volume") == 0 &&
+  const std::string drawnAs = kind.GetNumberOfElements() == 1 ? kind.GetAsString() : "";
+  return data && (drawnAs == "Deformed Volume" || drawnAs == "Deformed Slices") &&
     data->GetFieldDataInformation()->GetArrayInformation("OMEZarrLevel");
 }
 
@@ -140,7 +140,7 @@ FinerDetail::FinerDetail(QObject* parent)
   }
 }
 
-// After each picture rays may ask for more.
+// After each picture more may be asked for.
 void FinerDetail::watch()
 {
   if (!this->Next.isActive())

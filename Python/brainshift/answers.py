@@ -120,7 +120,7 @@ def gpu(representation):
     - `gpuOtherBytes`: bytes of all other textures and buffers, including those of picture size
     - `gpuVoxelsPerTexel`: voxels that one value stands for; 1: there is memory for each of them
     - `gpuLevel`: the finer level of an OME-Zarr store of which bricks are drawn; -1: none
-    - `gpuBricks`: bricks of it that are drawn where rays meet them, in all views
+    - `gpuBricks`: bricks of it that are drawn where rays or slices meet them, in all views
     - `gpuBricksWanted`: bricks that are still to come, at least 1 while there may be some; 0: each
       view is complete, or has as many as its memory holds
     - `gpuBricksComing`: views that had better be drawn a little later, while bricks are read
@@ -139,7 +139,7 @@ def draw_detail(view, representation, seconds=60.0):
     """Draw a view again and again until it shows all detail that it gets of a large volume.
 
     - `view`: a render view.
-    - `representation`: a display that is drawn as Deformed Volume in it.
+    - `representation`: a display that is drawn as Deformed Volume or Deformed Slices in it.
     - `seconds`: the longest time to wait, s. Default 60.
 
     Returns what `gpu` returns then. A volume that is read at its finest level takes one picture.

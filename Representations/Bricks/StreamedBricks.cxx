@@ -5,7 +5,9 @@
 #include "Representations/Gpu/VolumePass.h"
 #include "Representations/Scene/Frustum.h"
 
+#include "vtkCamera.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkRenderer.h"
 #include "vtkTextureObject.h"
 #include "vtkVolumeProperty.h"
 
@@ -27,20 +29,29 @@ constexpr double MostBricks = 16777216.0;       // rays write their numbers as f
 constexpr double StaysFiner = 1.3;              // times a pixel
 constexpr double MoreRoom = 1.5;                // times the former limit
 constexpr std::chrono::seconds FileMendsIn(30); // a brick that failed is read again after that
-constexpr int QuietPictures = 2; // rays ask for one brick each, so two pictures are compared
+constexpr int QuietPicturesOfRays = 2; // they ask for one brick each: two pictures are compared
+constexpr int QuietPicturesOfSlices = 1;
 
-// mm, world. How wide a pixel is where the volume's box is nearest to the eye.
+std::vector<glm::dvec3> cornersOf(const ValueLayout& layout)
+{
+  std::vector<glm::dvec3> corners;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    corners.push_back(glm::mix(layout.low, layout.high, side));
+  }
+  return corners;
+}
+
+// mm, world. How wide a pixel is where what is drawn is nearest to the eye.
 double pixelAt(const DrawnValues& values, const BrickView& view)
 {
   const glm::dmat4& clipFromWorld = view.frame.clipFromWorld;
   const double nearW = frustumOf(clipFromWorld * view.frame.worldFromTexture).near.w;
-  const ValueLayout& layout = values.layout;
   double w = 1e300;
-  for (int corner = 0; corner < 8; ++corner)
+  for (const glm::dvec3& corner : view.corners.empty() ? cornersOf(values.layout) : view.corners)
   {
-    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const glm::dvec4 world =
-      view.frame.worldFromTexture * glm::dvec4(glm::mix(layout.low, layout.high, side), 1.0);
+    const glm::dvec4 world = view.frame.worldFromTexture * glm::dvec4(corner, 1.0);
     w = std::min(w, (clipFromWorld * world).w);
   }
   const glm::dvec3 up(clipFromWorld[0][1], clipFromWorld[1][1], clipFromWorld[2][1]);
@@ -82,6 +93,31 @@ std::optional<FineGrid> placed(const DrawnValues& values, const Grid& grid, std:
 }
 }
 
+bool isLeftEye(const DrawnVolume& drawn)
+{
+  return drawn.renderer->GetActiveCamera()->GetLeftEye() != 0;
+}
+
+BrickView brickViewOf(
+  const DrawnVolume& drawn, const DrawnValues& values, const MemoryNeed& need, double limitMiB)
+{
+  BrickView view;
+  view.frame = frameOf(drawn, values);
+  vtkRenderWindow* window = drawn.renderer->GetRenderWindow();
+  const int type = window->GetStereoType();
+  const bool isStereo = window->GetStereoRender() != 0;
+  // ParaView saves the eyes one by one, and composes them.
+  view.isOfBoth = isStereo && type != VTK_STEREO_LEFT && type != VTK_STEREO_RIGHT;
+  view.eye = isStereo && !isLeftEye(drawn) ? 1 : 0;
+  if (limitMiB > 0.0)
+  {
+    constexpr double leastMiB = 1.0;
+    view.limitMiB = std::max(limitMiB - static_cast<double>(need.total()) / BytesInMiB, leastMiB);
+  }
+  view.setMiB = limitMiB;
+  return view;
+}
+
 std::optional<FineGrid> levelFor(const DrawnValues& values, const std::vector<Grid>& finer,
   const BrickView& view, double pixelsWide)
 {
@@ -112,12 +148,12 @@ std::optional<FineGrid> levelFor(const DrawnValues& values, const std::vector<Gr
 }
 
 // Other choices are drawn from the volume's own level alone.
-bool StreamedBricks::accepts(const TissueRequest& tissue) const
+bool StreamedBricks::accepts(const BrickView& view, const TissueRequest& tissue)
 {
   const DrawnComponents drawn = drawnComponents(tissue.property, tissue.values.scalars);
-  return tissue.blend == Blend::Composite && tissue.opacity == Opacity::Scalar &&
-    !tissue.compared && !tissue.labels && !tissue.nearest && !tissue.segment.segmentation.labels &&
-    drawn.coloring == Coloring::Mapped && drawn.scalar >= 0 &&
+  const bool isBlended = tissue.blend == Blend::Composite && !tissue.nearest;
+  return (view.ofSlices || isBlended) && tissue.opacity == Opacity::Scalar && !tissue.compared &&
+    !tissue.labels && !tissue.segment.segmentation.labels && drawn.coloring == Coloring::Mapped && drawn.scalar >= 0 &&
     !CategoryScalars::areWanted(tissue.property);
 }
 
@@ -125,7 +161,8 @@ bool StreamedBricks::accepts(const TissueRequest& tissue) const
 // picture to picture; bricks that fit are not read again for that.
 bool StreamedBricks::hasRoomFor(const BrickView& view) const
 {
-  if (view.setMiB != this->SetMiB) // which a message may have asked for
+  if (view.setMiB != this->SetMiB || // which a message may have asked for
+    view.mostBricks > this->MostBricks)
   {
     return false;
   }
@@ -142,7 +179,7 @@ bool StreamedBricks::hasRoomFor(const BrickView& view) const
 void StreamedBricks::chooseLevel(const BrickView& view, const TissueRequest& tissue)
 {
   const std::vector<Grid> grids = this->Loader ? this->Loader->grids() : std::vector<Grid>();
-  this->Accepted = this->Loader && this->accepts(tissue);
+  this->Accepted = this->Loader && accepts(view, tissue);
   this->KnewGrids = !grids.empty();
   std::optional<FineGrid> level;
   if (this->Accepted)
@@ -166,6 +203,7 @@ void StreamedBricks::chooseLevel(const BrickView& view, const TissueRequest& tis
     this->IsRefused = false;
     this->LimitMiB = view.limitMiB;
     this->SetMiB = view.setMiB;
+    this->MostBricks = view.mostBricks;
     this->Level = level;
     this->Order = order;
     this->forgetBricks();
@@ -199,6 +237,7 @@ void StreamedBricks::plan(GpuTask& gpu, const BrickView& view, TissueRequest& ti
   this->Asks = view.asks;
   this->Eye = view.eye;
   this->IsOfBoth = view.isOfBoth;
+  this->QuietPictures = view.ofSlices ? QuietPicturesOfSlices : QuietPicturesOfRays;
   this->chooseLevel(view, tissue);
   this->Bytes = ScalarTexture::bytesOf(tissue.values.scalars, this->Order.component);
   if (!this->Level || (!this->Atlas && !this->allocate(gpu)))
@@ -245,7 +284,9 @@ bool StreamedBricks::allocate(GpuTask& gpu)
     freeMiB == UnknownMemory ? UsualLimitMiB : std::min(UsualLimitMiB, 0.5 * freeMiB);
   const double allowed = this->LimitMiB > 0.0 ? this->LimitMiB : usualMiB;
   const glm::ivec3 bricks = this->Order.fine.bricks();
-  const std::int64_t all = static_cast<std::int64_t>(bricks.x) * bricks.y * bricks.z;
+  const std::int64_t inLevel = static_cast<std::int64_t>(bricks.x) * bricks.y * bricks.z;
+  const std::int64_t all =
+    this->MostBricks > 0 ? std::min(inLevel, this->MostBricks) : inLevel;
   const int longest = vtkTextureObject::GetMaximumTextureSize3D(gpu.window) / SlotSideVoxels;
   std::int64_t slots = std::min<std::int64_t>(
     all, static_cast<std::int64_t>(allowed * BytesInMiB / (this->Bytes * SlotVoxels)));
@@ -392,15 +433,20 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
   }
   this->Pictures += 1;
   std::map<int, int> pixels; // of each brick that is missing
+  glm::vec2 last(-1.0f);     // neighbours often name the same
+  int* count = nullptr;
   for (const glm::vec2& wish : wishes)
   {
     if (wish.x >= 0.0f)
     {
-      pixels[static_cast<int>(wish.x)] += 1;
+      count = wish.x == last.x ? count : &pixels[static_cast<int>(wish.x)];
+      *count += 1;
+      last.x = wish.x;
     }
-    if (wish.y >= 0.0f)
+    if (wish.y >= 0.0f && wish.y != last.y)
     {
       this->Table.use(static_cast<int>(wish.y), this->View);
+      last.y = wish.y;
     }
   }
   for (const int brick : this->Wanted) // of the same view, and not there yet
@@ -488,7 +534,7 @@ std::int64_t StreamedBricks::wantedUntil(bool isQuiet) const
 
 bool StreamedBricks::isQuiet(int eye) const
 {
-  return this->Quiet[eye] >= QuietPictures;
+  return this->Quiet[eye] >= this->QuietPictures;
 }
 
 std::string StreamedBricks::problem() const
@@ -514,6 +560,13 @@ bool StreamedBricks::waitForMore(const Clock::time_point& end) const
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return this->wantedByEye() > 0 && (Clock::now() < end || this->Loader->countRead() > 0);
+}
+
+void resetDetail(Counters& counters)
+{
+  counters.gpuLevel = -1;
+  counters.gpuBricks = counters.gpuBricksWanted = counters.gpuBricksRead = 0;
+  counters.gpuBricksLackRoom = counters.gpuBricksComing = 0;
 }
 
 void StreamedBricks::count(Counters& counters) const

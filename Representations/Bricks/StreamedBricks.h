@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Bricks of a finer level of the volume that is drawn, on the GPU of one window: those that rays
-/// asked for, as far as memory goes.
+/// or slices asked for, as far as memory goes.
 #ifndef BrainShift_StreamedBricks_h
 #define BrainShift_StreamedBricks_h
 
@@ -26,21 +26,37 @@ struct BrickView
   bool asks = true;       ///< Rays ask for bricks.
   int eye = 0;            ///< 1: the right one of two.
   bool isOfBoth = false;  ///< The other eye is drawn into the same picture.
+
+  /// Slices are drawn, not rays: a pixel reads one brick, and names it in the first picture.
+  bool ofSlices = false;
+  std::vector<glm::dvec3> corners; ///< Of what is drawn, texture coordinates; none: the volume's.
+  std::int64_t mostBricks = 0;     ///< More are never asked for; 0: unknown.
 };
 
+/// The view of the camera that draws now. `need`: the memory of all else. `limitMiB`: of all memory;
+/// 0: none.
+BrickView brickViewOf(const DrawnVolume& drawn, const DrawnValues& values, const MemoryNeed& need,
+  double limitMiB);
+
+/// Whether the camera draws the left one of two eyes.
+bool isLeftEye(const DrawnVolume& drawn);
+
 /// The level that suits a view: the coarsest whose voxels are no longer than a pixel is wide where
-/// the volume's box is nearest to the eye, or else the finest. None: the volume's own is fine
+/// the view's corners are nearest to the eye, or else the finest. None: the volume's own is fine
 /// enough, or no finer one has its axes.
 /// `pixelsWide`: so many pixels count as one.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::optional<FineGrid> levelFor(const DrawnValues& values,
   const std::vector<Grid>& finer, const BrickView& view, double pixelsWide = 1.0);
+
+/// Begins the counters of bricks anew, which StreamedBricks::count adds to.
+void resetDetail(Counters& counters);
 
 /// Calls for one picture: plan, upload, and finish once it is cast. A picture without them, or one
 /// that failed, calls rest.
 class StreamedBricks
 {
 public:
-  /// Chooses the level. If one is streamed, `tissue` is changed to be sampled as finely.
+  /// Chooses the level. If one is streamed, `tissue` is changed to be sampled as finely by rays.
   void plan(GpuTask& gpu, const BrickView& view, TissueRequest& tissue);
 
   /// Sends bricks that have arrived to the GPU and fills the scene's bricks. `textures` are up to
@@ -54,8 +70,8 @@ public:
   /// in the last picture of this eye.
   bool asks(bool isChanged) const;
 
-  /// Orders what the rays of a picture asked for: for each pixel two bricks, one that is not there
-  /// and one that is, or a number below 0. Empty: nothing was cast.
+  /// Orders what the pixels of a picture asked for: for each two bricks, one that is not there and
+  /// one that is, or a number below 0. Empty: nothing was asked.
   void finish(const std::vector<glm::vec2>& wishes);
 
   /// Nothing more is wanted until the next plan.
@@ -100,7 +116,7 @@ public:
   void release(vtkWindow* window);
 
 private:
-  bool accepts(const TissueRequest& tissue) const;
+  static bool accepts(const BrickView& view, const TissueRequest& tissue);
   bool hasRoomFor(const BrickView& view) const;
   void chooseLevel(const BrickView& view, const TissueRequest& tissue);
   bool allocate(GpuTask& gpu);
@@ -114,7 +130,8 @@ private:
 
   std::optional<LevelSource> Source;
   std::unique_ptr<BrickLoader> Loader; // null: there are no finer levels
-  bool Asks = false;                   // rays of the last picture asked
+  bool Asks = false;                   // the last picture was one that asks
+  int QuietPictures = 2;               // without a wish, until nothing is missing
   bool Accepted = false;               // by what is drawn
   bool KnewGrids = false;              // at the last plan
   std::optional<FineGrid> Level;       // that is streamed now
@@ -125,6 +142,7 @@ private:
   int Bytes = 4;                             // of a voxel
   double LimitMiB = 0.0;                     // see BrickView
   double SetMiB = 0.0;                       // see BrickView
+  std::int64_t MostBricks = 0;               // see BrickView
   bool IsRefused = false;                    // the memory for it
   vtkWeakPointer<vtkTextureObject> RangesOf; // whose ranges were widened
   std::map<int, Clock::time_point> Failed;   // bricks that cannot be read until then

@@ -49,6 +49,7 @@
 #include "shader_similarity.h"
 #include "shader_skipping.h"
 #include "shader_slice_frag.h"
+#include "shader_slice_bricks_frag.h"
 #include "shader_slices_frag.h"
 #include "shader_slices_vert.h"
 #include "shader_smooth_occlusion_frag.h"
@@ -181,12 +182,16 @@ std::string nameOf(const RayCastVariant& variant)
     (variant.streamed ? "_streamed" : "") + (variant.asks ? "_asks" : "");
 }
 
+std::string brickDefines()
+{
+  return "#define STREAMED\n" + floatDefine("BRICK_SIDE", StreamedSide) +
+    floatDefine("BRICK_BORDER", SlotBorder);
+}
+
 // Where bricks of a finer level are drawn, rays ask for others in the target that counts samples.
 std::string streamedDefines(const RayCastVariant& variant)
 {
-  return !variant.streamed ? ""
-                           : "#define STREAMED\n" + floatDefine("BRICK_SIDE", StreamedSide) +
-      floatDefine("BRICK_BORDER", SlotBorder) + (variant.asks ? "#define WISHES\n" : "");
+  return !variant.streamed ? "" : brickDefines() + (variant.asks ? "#define WISHES\n" : "");
 }
 }
 
@@ -292,12 +297,21 @@ ShaderSource slicesSource(const SlicesVariant& variant)
   const std::string defines = fieldDefines() + (variant.deformed ? "#define DEFORMED\n" : "") +
     coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "") +
     (variant.cavity ? "#define CAVITY\n" : "") + (variant.evidence ? "#define EVIDENCE\n" : "") +
-    resectionDefines(variant.removed, variant.tumour);
+    resectionDefines(variant.removed, variant.tumour) + (variant.streamed ? brickDefines() : "");
   return { assemble({ shader_slices_vert }), "",
     assemble(
       { Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment, shader_tissue,
-        shader_resection, shader_components, shader_evidence, shader_cubic, shader_cavity,
+        variant.streamed ? std::string(shader_streamed) : "", shader_resection, shader_components, shader_evidence, shader_cubic, shader_cavity,
         shader_crosshair, shader_comparison, shader_similarity, shader_slices_frag }) };
+}
+
+ShaderSource sliceBricksSource(bool deformed)
+{
+  const std::string defines =
+    fieldDefines() + (deformed ? "#define DEFORMED\n" : "") + brickDefines();
+  return { assemble({ shader_slices_vert }), "",
+    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
+      shader_tissue, shader_streamed, shader_slice_bricks_frag }) };
 }
 
 ShaderSource tracesSource(int tissues)
@@ -397,6 +411,16 @@ void addStreamed(NamedSources& sources, bool deformed)
   }
 }
 
+// Slices of such a volume, and which bricks they ask for.
+void addStreamedSlices(NamedSources& sources, bool deformed)
+{
+  const std::string frame = deformed ? "_deformed" : "_rest";
+  SlicesVariant streamed{ deformed };
+  streamed.streamed = true;
+  sources.emplace_back("slices" + frame + "_streamed", slicesSource(streamed));
+  sources.emplace_back("slice_bricks" + frame, sliceBricksSource(deformed));
+}
+
 // The ray caster of a volume whose fit has an uncertainty.
 void addEvidence(NamedSources& sources)
 {
@@ -462,6 +486,7 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     addSteep(sources, deformed);
     addCompared(sources, deformed);
     addStreamed(sources, deformed);
+    addStreamedSlices(sources, deformed);
   }
   addEvidence(sources);
   addResected(sources);

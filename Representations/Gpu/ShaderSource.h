@@ -130,12 +130,13 @@ struct SlicesVariant
   bool evidence = false; ///< Evidence is shown.
   bool removed = false;  ///< Tissue of a resection is dark.
   bool tumour = false;   ///< The tumour of a resection is marked.
+  bool streamed = false; ///< Bricks of a finer level; Mapped, not compared.
 
   bool operator<(const SlicesVariant& other) const
   {
     const auto key = [](const SlicesVariant& variant) {
       return std::make_tuple(variant.deformed, variant.coloring, variant.compared, variant.cavity,
-        variant.evidence, variant.removed, variant.tumour);
+        variant.evidence, variant.removed, variant.tumour, variant.streamed);
     };
     return key(*this) < key(other);
   }
@@ -158,6 +159,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource blocksSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource slicesSource(const SlicesVariant& variant);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource sliceBricksSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesSource(int tissues);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesOverSource();
 ///@}

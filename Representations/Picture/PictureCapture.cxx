@@ -33,8 +33,23 @@ void PictureCapture::end()
   this->Warned = false;
 }
 
-bool PictureCapture::warns()
+void PictureCapture::reportIfCoarse(GpuTask& gpu, const StreamedBricks& bricks)
 {
-  return !std::exchange(this->Warned, true);
+  gpu.remarks.push_back(bricks.problem()); // which may have come up while it waited
+  const std::int64_t wanted = bricks.wantedByEye();
+  const int lost = bricks.lost();
+  const bool isWhole = wanted <= 0 && lost == 0 && !bricks.lacksRoom();
+  if (isWhole || std::exchange(this->Warned, true))
+  {
+    return;
+  }
+  gpu.warnings.push_back("A picture that was saved is coarser in places: " +
+    (wanted > 0 ? std::to_string(wanted) + " bricks of finer voxels or more were still to come " +
+          "after " + std::to_string(LongestWait.count()) + " s. Save it once more to wait for them"
+        : lost > 0
+        ? std::to_string(lost) +
+          " bricks of finer voxels cannot be read, as a message tells. Mend " +
+          "the file and save the picture once more, some 30 s later"
+        : "there is no memory for more bricks of finer voxels. Set a greater Memory Limit"));
 }
 }

@@ -35,8 +35,8 @@ public:
   /// Nothing waits longer.
   const StreamedBricks::Clock::time_point& deadline() const { return this->Deadline; }
 
-  /// True at the first call for this picture.
-  bool warns();
+  /// Warns once for this picture if these bricks are not all that it shows.
+  void reportIfCoarse(GpuTask& gpu, const StreamedBricks& bricks);
 
 private:
   using Part = std::tuple<const void*, bool, double, double>; // device, eye, corner of the tile

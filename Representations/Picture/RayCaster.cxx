@@ -117,11 +117,6 @@ void setBehindUniforms(Program& program, const SceneBehind& behind)
   program.set("depthOfFractionZero", behind.depthOfFractionZero);
 }
 
-glm::vec3 texelOf(vtkTextureObject* texture)
-{
-  return 1.0f / glm::vec3(texture->GetWidth(), texture->GetHeight(), texture->GetDepth());
-}
-
 glm::vec3 brickFromTexture(const SceneSkipping& skipping)
 {
   return glm::vec3(1.0 / skipping.textureFromBrick);
@@ -218,21 +213,10 @@ void setSteepnessUniforms(Program& program, const SceneSteepness& steepness, dou
   }
 }
 
-void setBrickUniforms(Program& program, const RayCastScene& scene, bool asks)
+void setWishUniforms(Program& program, const RayCastScene& scene)
 {
   const SceneBricks& bricks = scene.bricks;
-  if (!bricks.pages)
-  {
-    return;
-  }
-  program.set("pages", bricks.pages);
-  program.set("atlas", bricks.atlas);
-  program.set("fineFromTexture", glm::vec3(bricks.voxelFromTexture));
-  program.set("fineOfTextureZero", glm::vec3(bricks.voxelOfTextureZero));
-  program.set("fineVoxels", glm::vec3(bricks.voxels));
-  program.set("pagesTexel", texelOf(bricks.pages));
-  program.set("atlasTexel", texelOf(bricks.atlas));
-  if (asks)
+  if (bricks.pages && !scene.image.countSamples)
   {
     program.get()->SetUniform2i("wishSeed", &bricks.seed[0]);
     program.set("wishReach", glm::vec3(scene.tissue.voxel * bricks.voxelFromTexture));
@@ -340,7 +324,8 @@ void setRayCastUniforms(
   setCutUniforms(program, scene.cuts);
   setBlendingUniforms(program, scene.tissue.blend, scene.blending);
   setSegmentUniforms(program, scene.tissue.segment);
-  setBrickUniforms(program, scene, !scene.image.countSamples);
+  setBrickUniforms(program, scene.bricks);
+  setWishUniforms(program, scene);
   setColoringUniforms(program, scene.tissue.coloring);
   setEvidenceUniforms(program, scene.evidence);
   setResectionUniforms(program, scene.resection);

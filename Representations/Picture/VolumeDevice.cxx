@@ -3,7 +3,6 @@
 
 #include "Representations/Picture/PictureCapture.h"
 
-#include "vtkCamera.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -109,21 +108,6 @@ bool VolumeDevice::askForMemory(
   return this->Deformation.askForMemory(gpu, this->Memory, need, request.memoryLimitMiB);
 }
 
-namespace
-{
-bool isLeftEye(const DrawnVolume& drawn)
-{
-  return drawn.renderer->GetActiveCamera()->GetLeftEye() != 0;
-}
-
-// ParaView saves the eyes one by one, and composes them.
-bool drawsBothEyes(vtkRenderWindow* window)
-{
-  const int type = window->GetStereoType();
-  return window->GetStereoRender() && type != VTK_STEREO_LEFT && type != VTK_STEREO_RIGHT;
-}
-}
-
 bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
   const VolumeRequest& request)
 {
@@ -150,34 +134,13 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
   } while (!isLast && this->Bricks.waitForMore(capture.deadline()));
   if (waits)
   {
-    this->reportIfCoarse(gpu);
+    capture.reportIfCoarse(gpu, this->Bricks);
   }
   const PictureWish& wish = request.wish;
   const bool done = this->images().composite(
     gpu.window, { wish.origin, wish.origin + wish.size }, this->Picture.shade(), gpu.counters);
   this->Picture.end();
   return done;
-}
-
-void VolumeDevice::reportIfCoarse(GpuTask& gpu) const
-{
-  gpu.remarks.push_back(this->Bricks.problem()); // which may have come up while it waited
-  const std::int64_t wanted = this->Bricks.wantedByEye();
-  const int lost = this->Bricks.lost();
-  const bool isWhole = wanted <= 0 && lost == 0 && !this->Bricks.lacksRoom();
-  if (isWhole || !PictureCapture::current().warns())
-  {
-    return;
-  }
-  gpu.warnings.push_back("A picture that was saved is coarser in places: " +
-    (wanted > 0 ? std::to_string(wanted) + " bricks of finer voxels or more were still to come " +
-          "after " + std::to_string(PictureCapture::LongestWait.count()) +
-          " s. Save it once more to wait for them"
-        : lost > 0
-        ? std::to_string(lost) +
-          " bricks of finer voxels cannot be read, as a message tells. Mend " +
-          "the file and save the picture once more, some 30 s later"
-        : "there is no memory for more bricks of finer voxels. Set a greater Memory Limit"));
 }
 
 bool VolumeDevice::castTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
@@ -255,20 +218,9 @@ TissueRequest VolumeDevice::planBricks(
   GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, const MemoryNeed& need)
 {
   TissueRequest tissue = request.tissue;
-  BrickView view;
-  view.frame = frameOf(drawn, tissue.values);
+  BrickView view = brickViewOf(drawn, tissue.values, need, request.memoryLimitMiB);
   view.pixels = request.wish.size;
   view.asks = !request.wish.countSamples;
-  view.isOfBoth = drawsBothEyes(gpu.window);
-  view.eye = gpu.window->GetStereoRender() && !isLeftEye(drawn) ? 1 : 0;
-  if (request.memoryLimitMiB > 0.0)
-  {
-    constexpr double bytesInMiB = 1048576.0;
-    constexpr double leastMiB = 1.0;
-    view.limitMiB =
-      std::max(request.memoryLimitMiB - static_cast<double>(need.total()) / bytesInMiB, leastMiB);
-  }
-  view.setMiB = request.memoryLimitMiB;
   this->Bricks.plan(gpu, view, tissue);
   if (!view.asks && this->Bricks.isStreamed())
   {

@@ -69,7 +69,6 @@ private:
     const VolumeRequest& request);
   void askForBricks(
     const GpuTask& gpu, const DrawnVolume& drawn, const PictureWish& wish, RayCastScene& scene);
-  void reportIfCoarse(GpuTask& gpu) const;
   bool uploadVolume(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
     const VolumeRequest& request, RayCastScene& scene);
   TissueRequest planBricks(

@@ -23,6 +23,25 @@ void setTissueUniforms(Program& program, const SceneTissue& tissue, int stepDoub
   program.set("volumeHigh", glm::vec3(tissue.volumeHigh));
 }
 
+glm::vec3 texelOf(vtkTextureObject* texture)
+{
+  return 1.0f / glm::vec3(texture->GetWidth(), texture->GetHeight(), texture->GetDepth());
+}
+
+void setBrickUniforms(Program& program, const SceneBricks& bricks)
+{
+  if (bricks.pages)
+  {
+    program.set("pages", bricks.pages);
+    program.set("atlas", bricks.atlas);
+    program.set("fineFromTexture", glm::vec3(bricks.voxelFromTexture));
+    program.set("fineOfTextureZero", glm::vec3(bricks.voxelOfTextureZero));
+    program.set("fineVoxels", glm::vec3(bricks.voxels));
+    program.set("pagesTexel", texelOf(bricks.pages));
+    program.set("atlasTexel", texelOf(bricks.atlas));
+  }
+}
+
 namespace
 {
 // Without corrections their samplers are not read; they need some texture nevertheless.
@@ -37,8 +56,7 @@ void setCorrectionUniforms(Program& program, const SceneField& field)
   program.set("corrections", values);
   program.set(
     "fieldNodes", glm::vec3(offsets->GetWidth(), offsets->GetHeight(), offsets->GetDepth()));
-  program.set("correctionTexel",
-    1.0f / glm::vec3(values->GetWidth(), values->GetHeight(), values->GetDepth()));
+  program.set("correctionTexel", texelOf(values));
   program.set("textureFromLattice", glm::vec3(1.0 / field.latticeFromTexture));
 }
 }
@@ -83,8 +101,7 @@ void setResectionUniforms(Program& program, const SceneResection& resection)
   {
     program.set("removed", removed);
     program.set("removedFromTexture", glm::mat4(resection.removed.ownFromTexture));
-    program.set("removedTexel",
-      1.0f / glm::vec3(removed->GetWidth(), removed->GetHeight(), removed->GetDepth()));
+    program.set("removedTexel", texelOf(removed));
   }
   if (resection.tumour.fractions)
   {

@@ -248,6 +248,12 @@ struct RayCastScene
 /// chooses the row of opacities.
 void setTissueUniforms(Program& program, const SceneTissue& tissue, int stepDoublings);
 
+/// One texel of a 3D texture, texture coordinates.
+glm::vec3 texelOf(vtkTextureObject* texture);
+
+/// What Shaders/Tissue/streamed.glsl needs to find voxels. Nothing if no finer level is drawn.
+void setBrickUniforms(Program& program, const SceneBricks& bricks);
+
 /// What Shaders/Field/field.glsl needs of a volume with a deformation.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT void setFieldUniforms(
   Program& program, const SceneField& field);

@@ -121,17 +121,27 @@ void setWipeUniforms(Program& program, const ReferenceScene& scene, int axis)
   program.set("wipeShift", static_cast<float>(scene.wipes[axis].shift));
 }
 
-namespace
-{
 glm::dmat4 clipFromTexture(const SceneFrame& frame)
 {
   return frame.clipFromWorld * frame.worldFromTexture;
 }
 
+void drawQuad(Program& program, const SliceQuad& quad)
+{
+  program.set("quadCorner", glm::vec3(quad.corner));
+  program.set("quadRight", glm::vec3(quad.right));
+  program.set("quadUp", glm::vec3(quad.up));
+  constexpr int trianglesOfQuad = 2;
+  drawTriangles(trianglesOfQuad);
+}
+
+namespace
+{
 void setSliceUniforms(Program& program, const SliceScene& scene, double scale)
 {
   constexpr int noDoublings = 0;
   setTissueUniforms(program, scene.tissue, noDoublings);
+  setBrickUniforms(program, scene.bricks);
   if (scene.field.offsets)
   {
     setFieldUniforms(program, scene.field);
@@ -158,7 +168,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
   const SlicesVariant variant{ scene.field.offsets != nullptr, tissue.coloring.source,
     scene.reference.place.scalars != nullptr, scene.reference.cavity.voxels != nullptr,
     scene.evidence.deviations != nullptr, scene.resection.removed.fractions != nullptr,
-    scene.resection.tumour.fractions != nullptr };
+    scene.resection.tumour.fractions != nullptr, scene.bricks.pages != nullptr };
   Program& program = this->Programs[variant];
   if (!program.use(window, slicesSource(variant), counters))
   {
@@ -179,21 +189,18 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
     for (const SliceQuad& quad : quads)
     {
       program.set("quadAxis", quad.axis);
-      program.set("quadCorner", glm::vec3(quad.corner));
-      program.set("quadRight", glm::vec3(quad.right));
-      program.set("quadUp", glm::vec3(quad.up));
       if (variant.compared)
       {
         setWipeUniforms(program, scene.reference, quad.axis);
       }
-      constexpr int trianglesOfQuad = 2;
-      drawTriangles(trianglesOfQuad);
+      drawQuad(program, quad);
     }
   }
   for (vtkTextureObject* texture :
     { tissue.scalars, tissue.transfer, tissue.coloring.colors, tissue.coloring.scalars,
       scene.reference.place.scalars, scene.reference.cavity.voxels, scene.evidence.deviations,
-      scene.resection.removed.fractions, scene.resection.tumour.fractions })
+      scene.resection.removed.fractions, scene.resection.tumour.fractions, scene.bricks.pages,
+      scene.bricks.atlas })
   {
     if (texture)
     {

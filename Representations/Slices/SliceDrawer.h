@@ -110,6 +110,7 @@ struct SliceScene
   SceneFrame frame;
   SceneField field;
   SceneTissue tissue;
+  SceneBricks bricks;
   SlicePlanes planes;
   ReferenceScene reference;
   SceneEvidence evidence;
@@ -123,6 +124,12 @@ struct SliceScene
   bool crosshair = false;            ///< The lines where the planes cut each other are drawn.
   glm::mat3 crosshairColors{ 1.0f }; ///< A column for the plane across each axis of the texture.
 };
+
+/// Texture coordinates to the camera's clip space.
+glm::dmat4 clipFromTexture(const SceneFrame& frame);
+
+/// Runs slices.vert.glsl for a rectangle.
+void drawQuad(Program& program, const SliceQuad& quad);
 
 /// The programs of one window.
 class SliceDrawer

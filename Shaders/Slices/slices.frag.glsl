@@ -9,10 +9,28 @@ uniform float opacity;   // of everything
 uniform int mapsOpacity; // 1: the opacity map counts, too
 uniform int selecting;   // 1: only depth is drawn; colours are the background of a selection
 
+#ifdef STREAMED
+// A brick's slot has all voxels that the cubic filter reads.
+float finerAt(vec3 rest)
+{
+  vec3 fine = fineAt(rest);
+  vec3 brick = brickOf(fine);
+  vec4 page = pageOf(brick);
+  return page.a < 0.5
+    ? filteredAt(scalars, rest, voxels, cubic)
+    : filteredAt(atlas, positionInAtlas(page, fine, brick), vec3(textureSize(atlas, 0)),
+                                  cubic);
+}
+#endif
+
 void main()
 {
   vec3 rest = restFromDeformed(deformed);
+#ifdef STREAMED
+  float scalar = finerAt(rest);
+#else
   float scalar = filteredAt(scalars, rest, voxels, cubic);
+#endif
   bool hasTissue = insideVolume(rest) && isNumber(scalar);
   vec4 tissue = tissueOf(scalar);
   vec4 seen = vec4(markedInSlice(ownColorOf(tissue, rest), deformed, rest), tissue.a);

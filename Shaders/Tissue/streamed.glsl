@@ -1,5 +1,5 @@
-// Voxels of a finer level of the volume, in bricks that come while rays ask for them. Where a brick
-// is not there, the volume's own voxels are drawn.
+// Voxels of a finer level of the volume, in bricks that come while rays or slices ask for them. Where
+// a brick is not there, the volume's own voxels are drawn.
 
 uniform sampler3D pages;      // for each brick: place of its slot, of 255; alpha 1 if it is there
 uniform sampler3D atlas;      // slots of bricks, each with a border: red: the scalar, as stored
@@ -21,6 +21,12 @@ vec3 fineAt(vec3 rest)
 vec3 brickOf(vec3 fine)
 {
   return floor(min(fine, fineVoxels - 0.5) / BRICK_SIDE);
+}
+
+float numberOf(vec3 brick)
+{
+  vec3 bricks = ceil(fineVoxels / BRICK_SIDE);
+  return (brick.z * bricks.y + brick.y) * bricks.x + brick.x;
 }
 
 vec4 pageOf(vec3 brick)
@@ -84,8 +90,7 @@ void askForBrick(vec3 rest)
     return;
   }
   lastAsked = brick;
-  vec3 bricks = ceil(fineVoxels / BRICK_SIDE);
-  float number = (brick.z * bricks.y + brick.y) * bricks.x + brick.x;
+  float number = numberOf(brick);
   if (pageOf(brick).a < 0.5)
   {
     wishes.x = wishesLeft.x >= 0 ? number : wishes.x;

@@ -47,7 +47,7 @@ STANDS_ON = {
     "Representations/Bricks": ["Representations/Tissue"],
     "Representations/Traces": ["Representations/Scene"],
     "Representations/Picture": ["Representations/Bricks", "Representations/Field"],
-    "Representations/Slices": ["Representations/Field", "Representations/Tissue"],
+    "Representations/Slices": ["Representations/Bricks", "Representations/Field"],
     "Representations/Window": [
         "Representations/Picture", "Representations/Slices", "Representations/Traces"],
     "Representations/Workarounds": [],

@@ -175,15 +175,20 @@ TEST(CoveredRanges, HoldAllThatInterpolationFinds)
 
 namespace
 {
-// 64 voxels of 2 mm a side, seen in parallel: 100 pixels show twice `half` mm. `acrossMm`: how far
-// apart the slices of the two finer levels are.
-std::optional<FineGrid> levelSeen(double half, glm::dvec2 acrossMm = { 0.5, 1.0 })
+// 64 voxels of 2 mm a side, which begin at -0.5 mm.
+DrawnValues valuesOfLevel()
 {
   DrawnValues values;
   values.grid.dimensions = glm::ivec3(64);
   values.grid.spacing = glm::dvec3(2.0);
   values.grid.origin = glm::dvec3(0.5);
   values.layout = layoutOf(values.grid.dimensions, false);
+  return values;
+}
+
+// Of 0.5 and 1 mm. `acrossMm`: how far apart the slices of the two are.
+std::vector<Grid> finerGrids(glm::dvec2 acrossMm)
+{
   std::vector<Grid> finer(2);
   finer[0].dimensions = glm::ivec3(256);
   finer[0].spacing = glm::dvec3(0.5);
@@ -196,13 +201,26 @@ std::optional<FineGrid> levelSeen(double half, glm::dvec2 acrossMm = { 0.5, 1.0 
     finer[i].spacing.z = acrossMm[i];
     finer[i].origin.z = 0.5 * acrossMm[i] - 0.5;
   }
+  return finer;
+}
+
+BrickView viewOf(const DrawnValues& values, const glm::dmat4& clipFromEye, const glm::dvec3& eye)
+{
   BrickView view;
   view.pixels = glm::ivec2(100);
   const vtkNew<vtkMatrix4x4> unmoved;
   view.frame.worldFromTexture = worldFromTexture(values.grid, values.layout, unmoved);
-  view.frame.clipFromWorld = glm::ortho(-half, half, -half, half, 1.0, 500.0) *
-    glm::translate(glm::dmat4(1.0), glm::dvec3(-64.0, -64.0, -300.0));
-  return levelFor(values, finer, view);
+  view.frame.clipFromWorld = clipFromEye * glm::translate(glm::dmat4(1.0), -eye);
+  return view;
+}
+
+// Seen in parallel: 100 pixels show twice `half` mm.
+std::optional<FineGrid> levelSeen(double half, glm::dvec2 acrossMm = { 0.5, 1.0 })
+{
+  const DrawnValues values = valuesOfLevel();
+  const glm::dmat4 clipFromEye = glm::ortho(-half, half, -half, half, 1.0, 500.0);
+  return levelFor(
+    values, finerGrids(acrossMm), viewOf(values, clipFromEye, { 64.0, 64.0, 300.0 }));
 }
 }
 
@@ -233,4 +251,22 @@ TEST(LevelFor, TakesOneThatIsFinerWithinSlicesAlone)
   EXPECT_EQ(levelSeen(90.0, { 2.0, 2.0 }).value_or(none).level, 1U);
   EXPECT_EQ(levelSeen(40.0, { 2.0, 2.0 }).value_or(none).level, 0U);
   EXPECT_FALSE(levelSeen(150.0, { 2.0, 2.0 }));
+}
+
+TEST(LevelFor, CountsPixelsWhereSlicesAreNearest)
+{
+  const DrawnValues values = valuesOfLevel();
+  // 100 pixels show 180 mm at a distance of 180 mm; the volume begins 60 mm from the eye.
+  const double angle = 2.0 * std::atan(0.5);
+  BrickView view =
+    viewOf(values, glm::perspective(angle, 1.0, 1.0, 500.0), { 64.0, 64.0, 187.5 });
+  const std::vector<Grid> finer = finerGrids({ 0.5, 1.0 });
+  FineGrid none;
+  none.level = 99;
+  EXPECT_EQ(levelFor(values, finer, view).value_or(none).level, 0U); // pixels of 0.6 mm
+  for (const double z : { 0.0, 1.0 })
+  {
+    view.corners = { { 0.0, 0.0, z }, { 1.0, 0.0, z }, { 0.0, 1.0, z }, { 1.0, 1.0, z } };
+    EXPECT_EQ(levelFor(values, finer, view).value_or(none).level, z == 0.0 ? 1U : 0U);
+  }
 }

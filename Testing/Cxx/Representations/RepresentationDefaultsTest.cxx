@@ -40,7 +40,7 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
     { "MapSliceOpacity", { double(mapper->GetMapOpacity()) } },
     { "OrientationMarks", { double(representation->GetOrientationMarks()) } },
     { "WorldAxes", { double(representation->GetWorldAxes()) } },
-    { "Opacity", { mapper->GetOpacity() } },
+    { "Opacity", { mapper->GetOpacity() } }, { "MemoryLimit", { mapper->GetMemoryLimit() } },
     { "SliceComparison", { double(mapper->GetComparison()) } },
     { "ComparisonColors", { double(mapper->GetComparisonColors()) } },
     { "CheckerSize", { mapper->GetCheckerSize() } },

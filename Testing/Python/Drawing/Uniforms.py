@@ -154,6 +154,13 @@ def test_streamed():
                 assert state["gpuLevel"] == 0 and state["gpuBricks"] > 0, state
                 drawn.draw(light, **named)
             drawn.close()
+        view = view_along((0.3, 0.2, -1), (40, 40, 40), 190.0, size=80)
+        display = show_slices(source, view, ("Axial", "Coronal"), (40, 40, 40))
+        state = brainshift.draw_detail(view, display)
+        assert state["gpuLevel"] == 0 and state["gpuBricks"] > 0, state
+        display.SlicePosition = [40, 40, 30]  # the last program is looked at by the next one
+        picture(view)
+        Delete(view)
 
 
 def test_reference():

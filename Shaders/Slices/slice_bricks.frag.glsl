@@ -1,0 +1,16 @@
+// Which brick of a finer level a slice reads at a pixel: red is its number if it is not there, green
+// if it is. Else -1.
+
+in vec3 deformed; // texture coordinates
+
+void main()
+{
+  vec3 rest = restFromDeformed(deformed);
+  if (!insideVolume(rest))
+  {
+    discard;
+  }
+  vec3 brick = brickOf(fineAt(rest));
+  float number = numberOf(brick);
+  gl_FragData[0] = pageOf(brick).a < 0.5 ? vec4(number, -1.0, 0.0, 0.0) : vec4(-1.0, number, 0.0, 0.0);
+}
