@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -81,9 +82,17 @@ std::string sizeText(const glm::dvec3& sides)
 double freeHostMemory()
 {
 #ifdef __linux__
+  return std::min(freeMachineMemory(), freeAddresses());
+#else
+  return Unlimited;
+#endif
+}
+
+double freeMachineMemory()
+{
+#ifdef __linux__
   constexpr double KiB = 1024.0;
-  const double ofMachine = numberAfter("/proc/meminfo", "MemAvailable:") * KiB;
-  return std::min({ ofMachine, freeAddresses(), freeOfGroup() });
+  return std::min(numberAfter("/proc/meminfo", "MemAvailable:") * KiB, freeOfGroup());
 #else
   return Unlimited;
 #endif
@@ -94,6 +103,27 @@ std::string hostMemoryProblem(const std::string& what, double bytes)
   const double left = bytes <= AlwaysThere ? Unlimited : freeHostMemory();
   return bytes <= left ? std::string()
                        : what + " needs " + gigabytes(bytes) + " of memory, and " +
+      gigabytes(left) + " are left; close other data or programs";
+}
+
+long long machineNumber()
+{
+  std::string name; // of the machine's last start
+  std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), name);
+  return static_cast<long long>(std::hash<std::string>()(name));
+}
+
+std::string sharedMemoryProblem(
+  const std::string& what, const std::vector<MemoryNeed>& needs, std::size_t own, double left)
+{
+  double bytes = 0.0;
+  for (const MemoryNeed& need : needs)
+  {
+    bytes += need.machine == needs[own].machine ? need.bytes : 0.0;
+  }
+  return bytes <= AlwaysThere || bytes <= left ? std::string()
+                                               : what + " needs " + gigabytes(needs[own].bytes) +
+      " of memory, together with other ranks of " + "its machine " + gigabytes(bytes) + ", and " +
       gigabytes(left) + " are left; close other data or programs";
 }
 

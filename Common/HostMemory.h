@@ -11,6 +11,8 @@
 
 #include <glm/glm.hpp>
 
+#include <vector>
+
 namespace brainshift
 {
 /**
@@ -26,6 +28,32 @@ VTKBRAINSHIFTCOMMON_EXPORT double freeHostMemory();
  * @param bytes   that are to be taken
  */
 VTKBRAINSHIFTCOMMON_EXPORT std::string hostMemoryProblem(const std::string& what, double bytes);
+
+/// What a process is to take, and on which machine.
+struct MemoryNeed
+{
+  long long machine; ///< see machineNumber
+  double bytes;
+};
+
+/** A number that all processes of a machine have, and those of another do not. */
+VTKBRAINSHIFTCOMMON_EXPORT long long machineNumber();
+
+/** Bytes that the machine has free, whatever limit this process has. Infinite on a system that does
+ * not say. */
+VTKBRAINSHIFTCOMMON_EXPORT double freeMachineMemory();
+
+/**
+ * Why memory is not there for processes that take it at once: one sentence, without a full stop.
+ * Empty if it is. Each of them alone may fit.
+ *
+ * @param what    see hostMemoryProblem
+ * @param needs   of all processes
+ * @param own     number of the process whose machine is meant
+ * @param left    bytes that this machine has free
+ */
+VTKBRAINSHIFTCOMMON_EXPORT std::string sharedMemoryProblem(
+  const std::string& what, const std::vector<MemoryNeed>& needs, std::size_t own, double left);
 
 /** Throws hostMemoryProblem, unless the memory is there. */
 VTKBRAINSHIFTCOMMON_EXPORT void requireHostMemory(const std::string& what, double bytes);

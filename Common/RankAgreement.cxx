@@ -6,6 +6,12 @@
 
 namespace brainshift
 {
+vtkMultiProcessController* severalRanks()
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  return ranks && ranks->GetNumberOfProcesses() > 1 ? ranks : nullptr;
+}
+
 bool isTrueOnAny(vtkMultiProcessController* ranks, bool here)
 {
   const int own = here;
@@ -24,12 +30,18 @@ std::string problemOnAny(vtkMultiProcessController* ranks, const std::string& he
   {
     return {};
   }
-  std::string sentence = here;
-  int length = static_cast<int>(sentence.size());
-  ranks->Broadcast(&length, 1, first);
-  sentence.resize(length);
-  ranks->Broadcast(sentence.data(), length, first);
-  return "MPI rank " + std::to_string(first) + " of " + std::to_string(count) + ": " + sentence;
+  return "MPI rank " + std::to_string(first) + " of " + std::to_string(count) + ": " +
+    textOf(ranks, here, first);
+}
+
+std::string textOf(vtkMultiProcessController* ranks, const std::string& here, int rank)
+{
+  std::string text = here;
+  int length = static_cast<int>(text.size());
+  ranks->Broadcast(&length, 1, rank);
+  text.resize(length);
+  ranks->Broadcast(text.data(), length, rank);
+  return text;
 }
 
 Box boxOfAll(vtkMultiProcessController* ranks, const Box& here)

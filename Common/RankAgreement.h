@@ -5,6 +5,8 @@
 #ifndef BrainShift_RankAgreement_h
 #define BrainShift_RankAgreement_h
 
+#include "Common/Guard.h"
+#include "Common/Problem.h"
 #include "vtkBrainShiftCommonModule.h" // for the export macro
 
 #include <array>
@@ -17,6 +19,9 @@ namespace brainshift
 /// Least and greatest x, y and z, mm, world axes.
 using Box = std::array<double, 6>;
 
+/** The MPI ranks of this program; null if it is one process. */
+VTKBRAINSHIFTCOMMON_EXPORT vtkMultiProcessController* severalRanks();
+
 /** Whether something is true on one rank or more. */
 VTKBRAINSHIFTCOMMON_EXPORT bool isTrueOnAny(vtkMultiProcessController* ranks, bool here);
 
@@ -28,6 +33,27 @@ VTKBRAINSHIFTCOMMON_EXPORT bool isTrueOnAny(vtkMultiProcessController* ranks, bo
  */
 VTKBRAINSHIFTCOMMON_EXPORT std::string problemOnAny(
   vtkMultiProcessController* ranks, const std::string& here);
+
+/**
+ * Runs a step of a filter on each rank. If it throws on one, this throws a Problem on all of them:
+ * that of the first rank that failed. So what ranks exchange after the step finds all of them.
+ *
+ * @param subject   see sentenceThrownBy
+ */
+template <typename Step>
+void runOnAllRanks(const std::string& subject, const Step& step)
+{
+  if (vtkMultiProcessController* ranks = severalRanks())
+  {
+    throwIfAny(problemOnAny(ranks, sentenceThrownBy(subject, step)));
+    return;
+  }
+  step();
+}
+
+/** A text of one rank, on all ranks. `here`: any text on the other ranks. */
+VTKBRAINSHIFTCOMMON_EXPORT std::string textOf(
+  vtkMultiProcessController* ranks, const std::string& here, int rank);
 
 /** The smallest box that holds the boxes of all ranks. */
 VTKBRAINSHIFTCOMMON_EXPORT Box boxOfAll(vtkMultiProcessController* ranks, const Box& here);

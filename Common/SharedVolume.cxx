@@ -13,6 +13,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -159,12 +160,31 @@ struct Exchanged
   }
 };
 
+// The first rank that has some of the volume; the number of ranks if none has.
+int firstHolder(const std::vector<Extent>& held)
+{
+  return static_cast<int>(std::find_if_not(held.begin(), held.end(), isEmpty) - held.begin());
+}
+
+// That rank, if another one wants voxels and has none, not even their names; else -1.
+int lenderOf(const std::vector<Extent>& held, const std::vector<Extent>& wanted)
+{
+  const int first = firstHolder(held);
+  for (std::size_t i = 0; i < held.size() && first < static_cast<int>(held.size()); ++i)
+  {
+    if (isEmpty(held[i]) && !isEmpty(wanted[i]))
+    {
+      return first;
+    }
+  }
+  return -1;
+}
+
 // The arrays of the first rank that has some of the volume, known to all ranks.
 std::vector<Exchanged> exchangedBy(
   vtkMultiProcessController* ranks, vtkImageData* part, const std::vector<Extent>& held)
 {
-  const auto owner = std::find_if_not(held.begin(), held.end(), isEmpty);
-  const int first = static_cast<int>(owner - held.begin());
+  const int first = firstHolder(held);
   std::ostringstream own;
   if (ranks->GetLocalProcessId() == first)
   {
@@ -177,16 +197,9 @@ std::vector<Exchanged> exchangedBy(
       }
     }
   }
-  std::string text = own.str();
-  int length = static_cast<int>(text.size());
-  if (first < static_cast<int>(held.size()))
-  {
-    ranks->Broadcast(&length, 1, first);
-    text.resize(length);
-    ranks->Broadcast(text.data(), length, first);
-  }
+  const bool isHeld = first < static_cast<int>(held.size());
   std::vector<Exchanged> arrays;
-  std::istringstream lines(text);
+  std::istringstream lines(isHeld ? textOf(ranks, own.str(), first) : std::string());
   for (std::string line; std::getline(lines, line, '\0');)
   {
     Exchanged array{};
@@ -367,6 +380,14 @@ std::vector<Extent> extentsOfAll(vtkMultiProcessController* ranks, const Extent&
   return all;
 }
 
+std::vector<long long> machinesOfAll(vtkMultiProcessController* ranks)
+{
+  const long long own = machineNumber();
+  std::vector<long long> all(ranks->GetNumberOfProcesses());
+  ranks->AllGather(&own, all.data(), 1);
+  return all;
+}
+
 // Takes all memory that an exchange needs, or throws. The ranks' extents are known to all.
 class Exchange
 {
@@ -377,18 +398,25 @@ public:
   {
   }
 
-  void prepare(vtkImageData* part, const std::vector<Exchanged>& arrays, int rank)
+  void prepare(vtkImageData* part, const std::vector<Exchanged>& arrays, int rank,
+    const std::vector<long long>& machines)
   {
     const Extent& own = this->Wanted[rank];
-    double bytes = 0.0;
-    for (const Exchanged& array : arrays)
+    std::vector<MemoryNeed> needs;
+    for (std::size_t i = 0; i < machines.size(); ++i)
     {
-      bytes += isEmpty(own) ? 0.0 : bytesOf(array, own);
+      const Extent& wanted = this->Wanted[i];
+      needs.push_back({ machines[i], 0.0 });
+      for (const Exchanged& array : arrays)
+      {
+        needs[i].bytes += isEmpty(wanted) ? 0.0 : bytesOf(array, wanted);
+      }
     }
     const std::string what = "its part of the volume, " +
       sizeText(glm::dvec3(own[1] - own[0] + 1, own[3] - own[2] + 1, own[5] - own[4] + 1)) +
       " voxels,";
-    requireHostMemory(what, bytes);
+    requireHostMemory(what, needs[rank].bytes);
+    throwIfAny(sharedMemoryProblem(what, needs, rank, freeMachineMemory()));
     throwIfAny(sentenceThrownBy(what, [&] {
       this->Arrays = arrays;
       for (const Exchanged& array : this->Arrays)
@@ -525,19 +553,21 @@ std::string SharedVolume::exchange(vtkMultiProcessController* ranks, vtkImageDat
   const std::vector<Extent> allHeld = extentsOfAll(ranks, extentOf(part));
   const std::vector<Extent> allWanted = extentsOfAll(ranks, wanted);
   const std::vector<Exchanged> arrays = exchangedBy(ranks, part, allHeld);
+  const std::vector<long long> machines = machinesOfAll(ranks);
   const int own = ranks->GetLocalProcessId();
   Exchange exchange(allHeld, allWanted);
   std::string refused = problem;
   if (refused.empty())
   {
-    refused =
-      sentenceThrownBy("its part of the volume", [&] { exchange.prepare(part, arrays, own); });
+    refused = sentenceThrownBy(
+      "its part of the volume", [&] { exchange.prepare(part, arrays, own, machines); });
   }
   refused = problemOnAny(ranks, refused);
   if (refused.empty())
   {
     exchange.run(ranks);
     this->Voxels = exchange.volume(own);
+    this->Lender = lenderOf(allHeld, allWanted);
     this->Ranges = rangesOf(ranks, part, arrays);
   }
   return refused;
@@ -555,8 +585,9 @@ vtkSmartPointer<vtkImageData> SharedVolume::share(vtkMultiProcessController* ran
       return nullptr;
     }
   }
+  const Said said = this->lend(ranks, part);
   auto volume = vtkSmartPointer<vtkImageData>::New();
-  if (isEmpty(wanted) || !part)
+  if (isEmpty(wanted))
   {
     return volume;
   }
@@ -568,11 +599,34 @@ vtkSmartPointer<vtkImageData> SharedVolume::share(vtkMultiProcessController* ran
   volume->SetOrigin(&origin.x);
   volume->SetSpacing(&whole.grid.spacing.x);
   volume->SetDirectionMatrix(&rows[0][0]);
-  volume->GetFieldData()->ShallowCopy(part->GetFieldData());
-  if (vtkDataArray* scalars = part->GetPointData()->GetScalars())
-  {
-    volume->GetPointData()->SetActiveScalars(scalars->GetName());
-  }
+  volume->GetFieldData()->ShallowCopy(said.fields);
+  volume->GetPointData()->SetActiveScalars(said.scalars.c_str());
   return volume;
+}
+
+// A rank that holds no voxels may not know the rest, either: it gets what the first rank with some
+// says. Its own counts more, as far as it goes.
+SharedVolume::Said SharedVolume::lend(vtkMultiProcessController* ranks, vtkImageData* part) const
+{
+  Said said{ vtkSmartPointer<vtkFieldData>::New(), "" };
+  vtkDataArray* scalars = part ? part->GetPointData()->GetScalars() : nullptr;
+  said.scalars = scalars && scalars->GetName() ? scalars->GetName() : "";
+  if (this->Lender >= 0)
+  {
+    vtkNew<vtkPolyData> sent; // without points
+    if (ranks->GetLocalProcessId() == this->Lender)
+    {
+      sent->GetFieldData()->ShallowCopy(part->GetFieldData());
+    }
+    ranks->Broadcast(sent, this->Lender);
+    said.fields->ShallowCopy(sent->GetFieldData());
+    const std::string theirs = textOf(ranks, said.scalars, this->Lender);
+    said.scalars = said.scalars.empty() ? theirs : said.scalars;
+  }
+  for (int i = 0; part && i < part->GetFieldData()->GetNumberOfArrays(); ++i)
+  {
+    said.fields->AddArray(part->GetFieldData()->GetAbstractArray(i));
+  }
+  return said;
 }
 }

@@ -7,7 +7,8 @@
 #include "Common/Grid.h"
 #include "vtkBrainShiftCommonModule.h" // for the export macro
 
-#include "vtkImageData.h" // for its smart pointer
+#include "vtkFieldData.h" // for its smart pointer
+#include "vtkImageData.h" // likewise
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -39,7 +40,7 @@ using WholeRanges = std::map<std::pair<bool, std::string>, std::vector<std::arra
 /**
  * Gives each MPI rank the voxels that it wants of those that all ranks hold. Only voxels that
  * changed or are wanted anew are sent, so a stroke sends none. What the volume carries as field
- * data, such as its deformation, is whole on each rank.
+ * data, such as its deformation, is whole on each rank that holds voxels; others get it, too.
  *
  * The pipeline is not asked for other voxels than ParaView asks for: a reader would read its file
  * again whenever the requests of two consumers take turns.
@@ -82,13 +83,22 @@ private:
     bool operator==(const Known& o) const { return array == o.array && time == o.time; }
   };
 
+  // What a volume says besides its voxels.
+  struct Said
+  {
+    vtkSmartPointer<vtkFieldData> fields;
+    std::string scalars; // that are active, of points
+  };
+
   bool changed(vtkImageData* part, const Extent& whole, const Extent& wanted);
   std::string exchange(vtkMultiProcessController* ranks, vtkImageData* part, const Extent& wanted,
     const std::string& problem);
+  Said lend(vtkMultiProcessController* ranks, vtkImageData* part) const;
 
   WholeRanges Ranges;
   std::vector<Known> Arrays;            // of this rank's part, as sent last
   std::vector<int> Extents;             // of this rank's part, of the whole, and wanted
+  int Lender = -1;                      // this rank's words go to ranks without voxels; -1: none
   vtkSmartPointer<vtkImageData> Voxels; // of the wanted extent
 };
 }

@@ -6,6 +6,8 @@
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
 #include "Common/Portions.h"
+#include "Common/RankAgreement.h"
+#include "Common/RankInputs.h"
 #include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
@@ -43,12 +45,12 @@ constexpr const char* NotRun = "The distances have not been measured";
 // The numbers of all processes, on each of them.
 std::vector<double> ofAllProcesses(const std::vector<double>& own)
 {
-  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
-  const int count = processes ? processes->GetNumberOfProcesses() : 1;
-  if (count == 1)
+  vtkMultiProcessController* processes = severalRanks();
+  if (!processes)
   {
     return own;
   }
+  const int count = processes->GetNumberOfProcesses();
   const auto length = static_cast<vtkIdType>(own.size());
   std::vector<vtkIdType> lengths(count);
   processes->AllGather(&length, lengths.data(), 1);
@@ -141,6 +143,7 @@ struct vtkTraceDistance::State
 
 vtkStandardNewMacro(vtkTraceDistance);
 brainshiftGuardRequestsMacro(vtkTraceDistance);
+brainshiftInputsOfAllRanksMacro(vtkTraceDistance);
 
 vtkTraceDistance::vtkTraceDistance()
   : Internal(std::make_unique<State>())
@@ -340,6 +343,32 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
   });
 }
 
+bool vtkTraceDistance::MeasureAll(
+  vtkDataObject* input, vtkDataObject* output, std::vector<double>& distances)
+{
+  auto* blocks = vtkDataObjectTree::SafeDownCast(input);
+  if (!blocks)
+  {
+    output->ShallowCopy(input);
+    return this->Measure(vtkPointSet::SafeDownCast(output), distances);
+  }
+  bool going = true;
+  auto* measured = vtkDataObjectTree::SafeDownCast(output);
+  measured->CompositeShallowCopy(blocks);
+  const auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+  for (block->InitTraversal(); going && !block->IsDoneWithTraversal(); block->GoToNextItem())
+  {
+    if (auto* points = vtkPointSet::SafeDownCast(block->GetCurrentDataObject()))
+    {
+      auto copy = vtkSmartPointer<vtkPointSet>::Take(points->NewInstance());
+      copy->ShallowCopy(points);
+      measured->SetDataSet(block, copy);
+      going = this->Measure(copy, distances);
+    }
+  }
+  return going;
+}
+
 void vtkTraceDistance::NoteRMS(vtkDataObject* points, vtkDataObject* volume)
 {
   State& state = *this->Internal;
@@ -363,33 +392,18 @@ int vtkTraceDistance::RequestData(
     wordsOnSidesOf(
       { "the traced points", worldAxesOf(input) }, vtkDataObject::GetData(inputs[DeformationPort])),
     state.Warned);
-  if (const std::string problem = problemOf([&] { this->FindCortex(inputs); }); !problem.empty())
+  std::vector<double> distances;
+  bool going = true;
+  const std::string problem = problemOf([&] {
+    runOnAllRanks("Trace Distance", [&] {
+      this->FindCortex(inputs);
+      going = this->MeasureAll(input, output, distances);
+    });
+  });
+  if (!problem.empty())
   {
     state.forget(problem);
     throw Problem(problem);
-  }
-  std::vector<double> distances;
-  bool going = true;
-  if (auto* blocks = vtkDataObjectTree::SafeDownCast(input))
-  {
-    auto* measured = vtkDataObjectTree::SafeDownCast(output);
-    measured->CompositeShallowCopy(blocks);
-    const auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
-    for (block->InitTraversal(); going && !block->IsDoneWithTraversal(); block->GoToNextItem())
-    {
-      if (auto* points = vtkPointSet::SafeDownCast(block->GetCurrentDataObject()))
-      {
-        auto copy = vtkSmartPointer<vtkPointSet>::Take(points->NewInstance());
-        copy->ShallowCopy(points);
-        measured->SetDataSet(block, copy);
-        going = this->Measure(copy, distances);
-      }
-    }
-  }
-  else
-  {
-    output->ShallowCopy(input);
-    going = this->Measure(vtkPointSet::SafeDownCast(output), distances);
   }
   const std::vector<double> all = ofAllProcesses(distances);
   state.Statistics = statisticsOf(all);

@@ -42,6 +42,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int ModifyRequest(vtkInformation* request, int when) override;
 
   enum SurfaceByType
   {
@@ -149,6 +150,8 @@ private:
   void FindCortex(vtkInformationVector** inputs);
   // Adds the array to points. False if the user aborts.
   bool Measure(vtkPointSet* points, std::vector<double>& all);
+  // Measures the input, or all of its blocks, into a copy. False if the user aborts.
+  bool MeasureAll(vtkDataObject* input, vtkDataObject* output, std::vector<double>& distances);
   // Notes the RMS among those after other strokes.
   void NoteRMS(vtkDataObject* points, vtkDataObject* volume);
 

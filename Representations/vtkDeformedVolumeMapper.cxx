@@ -127,9 +127,7 @@ void vtkDeformedVolumeMapper::Modified()
 void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
 {
   std::string problem;
-  const std::string thrown = thrownBy([&] { this->Internal->Deformation.update(image, problem); });
-  problem = thrown.empty() ? problem : "The deformation " + thrown;
-  if (!problem.empty())
+  if (!this->Internal->Deformation.update(image, problem))
   {
     vtkErrorMacro(<< problem << ". The volume is drawn undeformed.");
   }
@@ -146,14 +144,20 @@ double* vtkDeformedVolumeMapper::GetBounds()
   }
   else if (image)
   {
-    this->WidenByTissue(image, this->Bounds);
+    this->UpdateDeformation(image);
+    this->WidenByDeformation(image, this->Bounds);
   }
   return this->Bounds;
 }
 
 void vtkDeformedVolumeMapper::WidenByTissue(vtkImageData* image, double bounds[6])
 {
-  this->UpdateDeformation(image);
+  this->Internal->Deformation.require(image);
+  this->WidenByDeformation(image, bounds);
+}
+
+void vtkDeformedVolumeMapper::WidenByDeformation(vtkImageData* image, double bounds[6])
+{
   this->Internal->Deformation.widen(bounds);
   widenByReference(image, bounds);
 }
@@ -164,7 +168,7 @@ const Lattice* vtkDeformedVolumeMapper::GetLattice(vtkImageData* image)
   {
     return nullptr;
   }
-  this->UpdateDeformation(image);
+  this->Internal->Deformation.require(image);
   const SceneDeformation& deformation = this->Internal->Deformation;
   return deformation.deformed ? &deformation.lattice : nullptr;
 }
@@ -329,7 +333,7 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
     tissue.wholePoints =
       glm::ivec3(whole[1], whole[3], whole[5]) - glm::ivec3(whole[0], whole[2], whole[4]) + 1;
   }
-  tissue.stepMm = this->StepOn(values.grid);
+  tissue.stepMm = this->StepOn(tissue);
   tissue.usualStep = this->SampleDistance <= 0.0;
   tissue.blend = blendOf(this, property);
   tissue.opacity = opacityOf(this, property, values.scalars);
@@ -348,13 +352,13 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   return tissue;
 }
 
-// mm.
-double vtkDeformedVolumeMapper::StepOn(const Grid& grid)
+// mm. MPI ranks take equal steps through parts of any size.
+double vtkDeformedVolumeMapper::StepOn(const TissueRequest& tissue)
 {
-  const glm::dvec3& side = grid.spacing;
+  const glm::dvec3& side = tissue.values.grid.spacing;
   const double asked =
     this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * std::min({ side.x, side.y, side.z });
-  const double longest = glm::length(side * glm::dvec3(grid.dimensions));
+  const double longest = glm::length(side * glm::dvec3(tissue.wholePoints));
   const double step = std::clamp(asked, longest / MostSamplesOfRay, longest);
   if (step > asked)
   {

@@ -37,7 +37,6 @@ namespace brainshift
 struct Counters;
 struct DrawnPart;
 struct DrawnValues;
-struct Grid;
 struct Lattice;
 struct SceneReference;
 struct TissueFacts;
@@ -241,7 +240,8 @@ public:
   ///@{
   /** For several MPI ranks that draw a part of the deformed frame each. Widens bounds (mm; x, y, z,
    * least and greatest each) by where an image's tissue can go; the deformation of an image, null
-   * if it has none; the part to draw, null (default): all of it. */
+   * if it has none; the part to draw, null (default): all of it. The first two throw a Problem if
+   * the deformation cannot be read: a rank must not draw its part without it. */
   void WidenByTissue(vtkImageData* image, double bounds[6]);
   const brainshift::Lattice* GetLattice(vtkImageData* image);
   void SetDrawnPart(const brainshift::DrawnPart* part);
@@ -293,10 +293,11 @@ private:
   void ComparePlainly(brainshift::VolumeRequest& request);
   brainshift::SceneReference ReferenceOf(
     vtkImageData* image, const brainshift::TissueRequest& tissue);
-  double StepOn(const brainshift::Grid& grid);
+  double StepOn(const brainshift::TissueRequest& tissue);
   double OcclusionRadiusOn(vtkImageData* image, vtkVolume* volume);
   double OcclusionDarkness();
   void UpdateDeformation(vtkImageData* image);
+  void WidenByDeformation(vtkImageData* image, double bounds[6]);
   void TellOnce(const std::string& sentence);
 
   double SampleDistance = 0.0;

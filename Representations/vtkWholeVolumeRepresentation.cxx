@@ -2,6 +2,7 @@
 #include "vtkWholeVolumeRepresentation.h"
 
 #include "Common/Guard.h"
+#include "Filters/Attached/BendNumbers.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Window/EvidenceLegend.h"
@@ -166,7 +167,7 @@ void vtkWholeVolumeRepresentation::SetRankHalo(double halo)
   {
     this->RankHalo = halo;
     this->Wanted = NoExtent;
-    this->PartsRefused = false;
+    this->TriesParts = true;
     this->MarkModified();
   }
 }
@@ -233,24 +234,25 @@ std::string vtkWholeVolumeRepresentation::WhyWholeIn(vtkPVRenderView* view, cons
 
 // A client comes here, too: it and the server agree on what changed, or the view keeps what it has.
 // Ranks that draw several volumes cut all of them by the same boxes, so a change of one concerns
-// the others.
+// the others, and so does one that comes or goes.
 void vtkWholeVolumeRepresentation::ChooseWhoDraws(vtkPVRenderView* view, const Group& group)
 {
   const std::string reason = WhyWholeIn(view, group);
   bool changes = false;
+  bool triesParts = false;
   for (vtkWholeVolumeRepresentation* volume : group)
   {
+    const bool isOther = reason.empty() != volume->MayDrawPart || group != volume->Beside;
+    triesParts = triesParts || isOther || volume->TriesParts;
+    changes = changes || isOther || volume->GetNeedsUpdate();
     volume->WhyDrawnWhole = reason;
-    if (reason.empty() != volume->MayDrawPart)
-    {
-      volume->MayDrawPart = reason.empty();
-      volume->PartsRefused = false;
-      volume->MarkModified();
-    }
-    changes = changes || volume->GetNeedsUpdate();
+    volume->MayDrawPart = reason.empty();
+    volume->TriesParts = false;
+    volume->Beside = group;
   }
   for (vtkWholeVolumeRepresentation* volume : group)
   {
+    volume->PartsRefused = volume->PartsRefused && !triesParts;
     if (changes && !volume->GetNeedsUpdate() && mayHaveRanks())
     {
       volume->MarkModified();
@@ -344,7 +346,13 @@ void vtkWholeVolumeRepresentation::TakeVoxels(const Group& all)
   {
     group.front()->WarnOfFirstRank(reason);
   }
-  problem = problem.empty() ? TakeExtents(group, drawsParts) : problem;
+  problem = problem.empty() && drawsParts ? WhyBentUnlike(group) : problem;
+  if (!problem.empty())
+  {
+    KeepPicture(group, problem + Kept + WayOut);
+    return;
+  }
+  problem = TakeExtents(group, drawsParts);
   const std::string ofParts = drawsParts ? problem : "";
   if (!ofParts.empty())
   {
@@ -362,6 +370,29 @@ void vtkWholeVolumeRepresentation::TakeVoxels(const Group& all)
   {
     group.front()->ReportOnce(ofParts + ". The first rank draws the whole volume" + WayOut);
   }
+}
+
+// Why the parts of the ranks would not fit together, the same on all; empty: they would.
+std::string vtkWholeVolumeRepresentation::WhyBentUnlike(const Group& group)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  for (vtkWholeVolumeRepresentation* volume : group)
+  {
+    std::vector<brainshift::BendNumber> numbers;
+    const std::string problem = brainshift::problemOnAny(ranks,
+      brainshift::sentenceThrownBy(
+        "its deformation", [&] { numbers = brainshift::bendNumbersOf(volume->Part); }));
+    if (!problem.empty())
+    {
+      return problem;
+    }
+    if (!brainshift::areSameOnAll(ranks, numbers))
+    {
+      return "The MPI ranks bend the volume in different ways: one of them could not follow, and "
+             "reported why";
+    }
+  }
+  return {};
 }
 
 // Why this rank cannot draw a part; empty: it can.

@@ -107,6 +107,7 @@ private:
   static void ShareOut(const Group& group, vtkInformation* input, vtkInformation* output);
   static void Bring(const Group& group, vtkInformation* input, vtkInformation* output);
   static void TakeVoxels(const Group& all);
+  static std::string WhyBentUnlike(const Group& group);
   static std::string TakeExtents(const Group& group, bool drawsParts);
   static std::array<double, 6> ShareWork(
     const Group& group, const std::array<double, 6>& bounds, bool drawsParts, std::string& problem);
@@ -132,6 +133,8 @@ private:
   std::string WhyDrawnWhole;           // if the settings and the view say so
   std::string WarnedOf;                // why the first rank draws all
   bool PartsRefused = false;           // so the first rank draws all
+  bool TriesParts = false;             // again
+  Group Beside;                        // the view's volumes as last shared out, to compare only
   bool IsNew = false;                  // the part, since voxels were shared out
   bool IsDrawnElsewhere = false;
   bool MayDrawPart = false;  // as far as settings and the view say

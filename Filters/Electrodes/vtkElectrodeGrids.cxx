@@ -4,6 +4,8 @@
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
+#include "Common/RankAgreement.h"
+#include "Common/RankInputs.h"
 #include "Common/WorldAxes.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Electrodes/ContactArrays.h"
@@ -334,6 +336,7 @@ struct vtkElectrodeGrids::State
 
 vtkStandardNewMacro(vtkElectrodeGrids);
 brainshiftGuardRequestsMacro(vtkElectrodeGrids);
+brainshiftInputsOfAllRanksMacro(vtkElectrodeGrids);
 
 vtkElectrodeGrids::vtkElectrodeGrids()
   : Internal(std::make_unique<State>())
@@ -608,9 +611,12 @@ int vtkElectrodeGrids::RequestData(
     throw;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputs);
-  state.write(output, this->ShowMissing);
   vtkPolyData* onCortex = vtkPolyData::GetData(outputs, 1);
-  state.writeOnCortex(onCortex);
+  if (isFirstRank()) // all ranks fitted all contacts, which must not count once for each rank
+  {
+    state.write(output, this->ShowMissing);
+    state.writeOnCortex(onCortex);
+  }
   for (vtkPolyData* each : { output, onCortex })
   {
     nameWorldAxes(each, axesOf(inputs[0], this->PointAxes));

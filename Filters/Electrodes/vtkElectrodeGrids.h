@@ -47,6 +47,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int ModifyRequest(vtkInformation* request, int when) override;
 
   ///@{
   /**

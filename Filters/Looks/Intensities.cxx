@@ -2,6 +2,7 @@
 #include "Filters/Looks/Intensities.h"
 
 #include "Common/ImageGrid.h"
+#include "Common/RankAgreement.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Filters/Looks/FirstCamera.h"
@@ -29,8 +30,7 @@ constexpr double RowShare = 0.002; // of the fullest row, below which a row coun
 
 void reduce(std::vector<double>& values, int operation)
 {
-  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
-  if (processes && processes->GetNumberOfProcesses() > 1)
+  if (vtkMultiProcessController* processes = severalRanks())
   {
     const std::vector<double> own = values;
     processes->AllReduce(own.data(), values.data(), static_cast<vtkIdType>(own.size()), operation);
@@ -95,6 +95,14 @@ public:
       static_cast<vtkIdType>(this->Place.offset(index.x, index.y, index.z)), 0);
   }
   bool isHere() const { return this->Array; }
+
+  // Whether an index in this part is of it, and not left to another.
+  bool counts(const glm::ivec3& index) const
+  {
+    const glm::ivec3 last = glm::ivec3(this->end(0), this->end(1), this->end(2)) - this->First;
+    return glm::all(glm::greaterThanEqual(index, glm::ivec3(0))) &&
+      glm::all(glm::lessThanEqual(index, last));
+  }
   int step() const { return this->Step; }
 
 private:
@@ -206,10 +214,9 @@ glm::dvec3 indexOf(const Grid& grid, std::size_t voxel)
   return { voxel % x, voxel / x % y, voxel / x / y };
 }
 
-// The values at the middles of the segmentation's voxels.
-Histogram countSegment(const Part& part, vtkImageData* volume, const Histogram& all)
+// Adds the values of a part at the middles of the segmentation's voxels.
+void addSegment(const Part& part, vtkImageData* volume, Histogram& histogram)
 {
-  Histogram histogram = makeHistogram(all.low, all.high, Bins);
   const Segmentation segmentation = volume ? readSegmentation(volume) : Segmentation();
   if (part.isHere() && segmentation.labels)
   {
@@ -224,13 +231,18 @@ Histogram countSegment(const Part& part, vtkImageData* volume, const Histogram& 
       }
       const glm::dvec3 world = mask.grid.worldFromGrid(indexOf(mask.grid, voxel));
       const glm::ivec3 index(glm::round(part.place().gridFromWorld(world)));
-      if (glm::all(glm::greaterThanEqual(index, glm::ivec3(0))) &&
-        glm::all(glm::lessThan(index, part.place().dimensions)) && std::isfinite(part.value(index)))
+      if (part.counts(index) && std::isfinite(part.value(index)))
       {
         histogram.add(part.value(index));
       }
     }
   }
+}
+
+Histogram countSegment(const Part& part, vtkImageData* volume, const Histogram& all)
+{
+  Histogram histogram = makeHistogram(all.low, all.high, Bins);
+  runOnAllRanks("The histogram of the segment", [&] { addSegment(part, volume, histogram); });
   reduce(histogram.counts, vtkCommunicator::SUM_OP);
   return histogram.total() > 0.0 ? histogram : Histogram();
 }
@@ -314,6 +326,23 @@ std::vector<std::size_t> endsOf(const std::vector<char>& inside, std::size_t beg
   return { static_cast<std::size_t>(first - inside.begin()),
     static_cast<std::size_t>(last - inside.begin()) };
 }
+
+void addSegment(vtkImageData* volume, FarPoints& points)
+{
+  const Segmentation segmentation = volume ? readSegmentation(volume) : Segmentation();
+  if (segmentation.labels)
+  {
+    const Mask mask = segmentOf(segmentation, segmentation.chosen);
+    const auto row = static_cast<std::size_t>(mask.grid.dimensions.x);
+    for (std::size_t begin = 0; begin < mask.inside.size(); begin += row)
+    {
+      for (const std::size_t voxel : endsOf(mask.inside, begin, begin + row))
+      {
+        points.add(mask.grid.worldFromGrid(indexOf(mask.grid, voxel)));
+      }
+    }
+  }
+}
 }
 
 Intensities readIntensities(vtkImageData* volume, const ArrayChoice& array)
@@ -360,15 +389,17 @@ std::vector<glm::dvec3> farPointsAbove(vtkImageData* volume, const ArrayChoice& 
   const glm::ivec3 first(0, size.x, size.x + size.y);
   std::vector<double> counts(static_cast<std::size_t>(first.z) + size.z, 0.0);
   RunEnds ends(part.step());
-  part.forEach([&](const glm::ivec3& index, double at) {
-    if (at > value)
-    {
-      ends.add(index);
-      for (int axis = 0; axis < 3; ++axis)
+  runOnAllRanks("The search for tissue", [&] {
+    part.forEach([&](const glm::ivec3& index, double at) {
+      if (at > value)
       {
-        counts[static_cast<std::size_t>(first[axis]) + index[axis]] += 1.0;
+        ends.add(index);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          counts[static_cast<std::size_t>(first[axis]) + index[axis]] += 1.0;
+        }
       }
-    }
+    });
   });
   reduce(counts, vtkCommunicator::SUM_OP);
   glm::ivec3 low;
@@ -393,19 +424,7 @@ std::vector<glm::dvec3> farPointsAbove(vtkImageData* volume, const ArrayChoice& 
 std::vector<glm::dvec3> farPointsOfSegment(vtkImageData* volume)
 {
   FarPoints points;
-  const Segmentation segmentation = volume ? readSegmentation(volume) : Segmentation();
-  if (segmentation.labels)
-  {
-    const Mask mask = segmentOf(segmentation, segmentation.chosen);
-    const auto row = static_cast<std::size_t>(mask.grid.dimensions.x);
-    for (std::size_t begin = 0; begin < mask.inside.size(); begin += row)
-    {
-      for (const std::size_t voxel : endsOf(mask.inside, begin, begin + row))
-      {
-        points.add(mask.grid.worldFromGrid(indexOf(mask.grid, voxel)));
-      }
-    }
-  }
+  runOnAllRanks("The search for the segment", [&] { addSegment(volume, points); });
   return points.ofAllProcesses();
 }
 }

@@ -4,6 +4,8 @@
 #include "Common/FilledArray.h"
 #include "Common/Guard.h"
 #include "Common/Numbers.h"
+#include "Common/RankAgreement.h"
+#include "Common/RankInputs.h"
 #include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
@@ -188,6 +190,7 @@ private:
 
 vtkStandardNewMacro(vtkFitDeformation);
 brainshiftGuardRequestsMacro(vtkFitDeformation);
+brainshiftInputsOfAllRanksMacro(vtkFitDeformation);
 
 vtkFitDeformation::vtkFitDeformation()
   : Landmarks(std::make_unique<FitLandmarks>())
@@ -331,9 +334,20 @@ void vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
 {
   State& state = *this->Internal;
   state.Measured = {};
+  PlacedVoxels cavity;
+  runOnAllRanks("Fit Deformation", [&] {
+    state.Volume = gridOf(vtkImageData::GetData(inputs[0]));
+    requirePosition(state.Volume, "The volume's ");
+    this->RequireProperties();
+    cavity = state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]), this->CavityLabels,
+      state.Volume, { "cavity", "volume", "CavityLabels" });
+  });
   const auto points = [&](
                         int port) { return pointsOfAllRanks(vtkPointSet::GetData(inputs[port])); };
-  NamedPairs named = this->Landmarks->read(points(RestPort), points(MeasuredPort));
+  const vtkSmartPointer<vtkPointSet> rest = points(RestPort);
+  const vtkSmartPointer<vtkPointSet> measured = points(MeasuredPort);
+  const std::vector<glm::dvec3> traces = positionsOf(points(TracesPort));
+  NamedPairs named = this->Landmarks->read(rest, measured);
   state.Measured.landmarks = std::move(named.pairs);
   state.Unmatched = std::move(named.unmatched);
   state.Repeated = std::move(named.repeated);
@@ -346,10 +360,6 @@ void vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
       state.Measured.pins.push_back(pin.rest);
     }
   }
-  const PlacedVoxels cavity =
-    state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]), this->CavityLabels,
-      gridOf(vtkImageData::GetData(inputs[0])), { "cavity", "volume", "CavityLabels" });
-  const std::vector<glm::dvec3> traces = positionsOf(points(TracesPort));
   state.TraceResiduals.assign(traces.size(), NaN);
   state.TraceNumbers.clear();
   for (std::size_t i = 0; i < traces.size(); ++i)
@@ -448,9 +458,6 @@ int vtkFitDeformation::RequestData(
   state.forget(NotRun); // if memory runs out, this stays
   try
   {
-    state.Volume = gridOf(vtkImageData::GetData(inputs[0]));
-    requirePosition(state.Volume, "The volume's ");
-    this->RequireProperties();
     this->ReadMeasurements(inputs);
     this->FindBase(inputs);
     this->FindAnchors(inputs);

@@ -51,6 +51,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int ModifyRequest(vtkInformation* request, int when) override;
 
   ///@{
   /** Whether the fold guard may shorten the bend. Default on. */

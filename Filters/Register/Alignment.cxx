@@ -312,6 +312,14 @@ void Alignment::moveReference(const glm::dmat3& matrix, const glm::dvec3& shift)
   }
 }
 
+// A search that began at a random position may still be far from the best result.
+const Alignment::Parameters& Alignment::bestKnown() const
+{
+  const bool isBehind = this->Progress.level == 0 && this->Start > 0 &&
+    (!this->IsPrepared || this->BestStartLoss <= this->Loss);
+  return isBehind ? this->BestStart : this->Best;
+}
+
 RigidPose Alignment::motionOf(const Parameters& at) const
 {
   const glm::dvec3 rotation = glm::dvec3(at[3], at[4], at[5]) / this->RadiusMm;
@@ -437,6 +445,7 @@ void Alignment::endRound()
   this->BestGain = 0.0;
   this->RoundStart = this->Best;
   this->RoundStartLoss = this->Loss;
+  this->report();
   if (isDone)
   {
     this->finishLevel();
@@ -455,7 +464,6 @@ bool Alignment::takeNextStart()
   {
     this->Best = this->BestStart;
     this->Loss = this->BestStartLoss;
-    this->Progress.information = -this->loss(this->Best, &this->Progress.overlap);
     return false;
   }
   const StartMotion motion = startMotion(this->Start, FarthestStartMm, FarthestStartDegrees);
@@ -502,13 +510,21 @@ const AlignmentProgress& Alignment::step()
     this->BestLine = this->Line;
   }
   ++this->Progress.steps;
-  this->Progress.information = -this->loss(this->Best, &this->Progress.overlap);
   if (++this->Line == static_cast<int>(this->Directions.size()))
   {
     this->endRound();
   }
+  else
+  {
+    this->report();
+  }
   this->reportDone();
   return this->Progress;
+}
+
+void Alignment::report()
+{
+  this->Progress.information = -this->loss(this->bestKnown(), &this->Progress.overlap);
 }
 
 void Alignment::reportDone()
@@ -525,15 +541,14 @@ void Alignment::reportDone()
 
 double Alignment::shiftMm() const
 {
-  return std::sqrt(
-    this->Best[0] * this->Best[0] + this->Best[1] * this->Best[1] + this->Best[2] * this->Best[2]);
+  const Parameters& at = this->bestKnown();
+  return std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
 }
 
 double Alignment::rotationDegrees() const
 {
-  return glm::degrees(std::sqrt(this->Best[3] * this->Best[3] + this->Best[4] * this->Best[4] +
-                        this->Best[5] * this->Best[5]) /
-    this->RadiusMm);
+  const Parameters& at = this->bestKnown();
+  return glm::degrees(std::sqrt(at[3] * at[3] + at[4] * at[4] + at[5] * at[5]) / this->RadiusMm);
 }
 
 double Alignment::bytes(const Grid& rest, const Grid& reference)

@@ -108,15 +108,18 @@ public:
   void moveReference(const glm::dmat3& matrix, const glm::dvec3& shift);
 
   /** Mutual information (nats) where the reference is now, on the present level. */
-  double information() const { return -this->loss(this->Best); }
+  double information() const { return -this->loss(this->bestKnown()); }
 
   /** Searches one line. Nothing once it is finished. */
   const AlignmentProgress& step();
 
   const AlignmentProgress& progress() const { return this->Progress; }
 
-  /** The motion of the reference from its start: mm, world axes. */
-  RigidPose motion() const { return this->motionOf(this->Best); }
+  /**
+   * The motion of the reference from its start: mm, world axes. While the coarsest level searches
+   * from several positions, that of the best result so far.
+   */
+  RigidPose motion() const { return this->motionOf(this->bestKnown()); }
 
   /** Distance (mm) by which the motion moves the middle of the samples. */
   double shiftMm() const;
@@ -139,12 +142,14 @@ private:
 
   void prepareLevel();
   int mostRoundsHere() const;
+  const Parameters& bestKnown() const;
   RigidPose motionOf(const Parameters& at) const;
   double loss(const Parameters& at, double* overlap = nullptr) const;
   double searchLine(const Parameters& direction);
   void endRound();
   void finishLevel();
   bool takeNextStart();
+  void report();
   void reportDone();
 
   AlignmentSettings Settings;
@@ -156,7 +161,7 @@ private:
 
   bool IsPrepared = false;
   std::array<Parameters, 6> Directions{};
-  Parameters Best{};
+  Parameters Best{};      // of the present search
   int Start = 0;          // of the coarsest level
   Parameters BestStart{}; // the result with the least loss of the starts so far
   double BestStartLoss = 0.0;

@@ -83,7 +83,7 @@ InsideCheck::InsideCheck(
   const RegisteredPair& pair, const Lattice& result, const RefinementLevel& level)
   : Whole(pair)
   , Result(result)
-  , Now(level)
+  , Now(withinMemory(level, pair.rest.grid))
 {
 }
 
@@ -101,8 +101,14 @@ void InsideCheck::read()
     inside.inside[i] = inside.inside[i] && weights.values[i] > 0.0f ? 1 : 0;
   }
   this->Pair.inside = std::move(inside);
-  this->Level = std::make_unique<PyramidLevel>(
-    this->Pair, ComparedRegion(this->Pair, RefinementPlan{}), this->Now, this->Result);
+  ComparedRegion region(this->Pair, RefinementPlan{});
+  if (this->IsFiner)
+  {
+    region.crop(this->Pair, this->Result);
+    this->IsFinished = !region.allowsFiner(this->Now);
+  }
+  this->Level =
+    std::make_unique<PyramidLevel>(this->Pair, region, this->Now, this->Result);
 }
 
 // Where there are too few samples, it begins again with a finer spacing. False: there is none.
@@ -126,13 +132,18 @@ bool InsideCheck::compare()
     this->Costs.push_back(found.cost);
     return this->Costs.size() < Comparisons;
   }
-  const double finerMm = Finer * this->Now.spacingMm;
-  const bool isFiner = coarseGrid(this->Whole.rest.grid, finerMm).dimensions !=
-    coarseGrid(this->Whole.rest.grid, this->Now.spacingMm).dimensions;
-  this->Now.spacingMm = finerMm;
+  RefinementLevel finer = this->Now;
+  finer.spacingMm *= Finer;
+  const Grid& whole = this->Whole.rest.grid;
+  const bool isFiner = coarseGrid(whole, finer.spacingMm).spacing !=
+    coarseGrid(whole, this->Now.spacingMm).spacing;
+  // The outline is found in all of the volume.
+  const bool isSmall = withinMemory(finer, whole).spacingMm == finer.spacingMm;
+  this->Now = finer;
+  this->IsFiner = true;
   this->Level = nullptr;
   this->Costs.clear();
-  return isFiner;
+  return isFiner && isSmall;
 }
 
 bool InsideCheck::step()
@@ -169,6 +180,7 @@ std::optional<double> InsideCheck::gain() const
   }
   const double beside = std::accumulate(this->Costs.begin() + 1, this->Costs.end(), 0.0) /
     static_cast<double>(Comparisons - 1);
-  return beside > 0.0 ? 1.0 - this->Costs.front() / beside : 0.0;
+  const double gain = beside > 0.0 ? 1.0 - this->Costs.front() / beside : 0.0;
+  return std::isfinite(beside) && std::isfinite(gain) ? std::optional<double>(gain) : std::nullopt;
 }
 }

@@ -19,7 +19,8 @@ public:
   /**
    * @param pair     both volumes, the reference in its position; lives longer than the check
    * @param result   the deformation, over the volume's box; lives longer than the check
-   * @param level    the metric, and the spacing of its points. It gets finer if there are too few.
+   * @param level    the metric, and the spacing of its points. It gets finer if there are too few,
+   *                 as far as memory should be taken.
    */
   InsideCheck(const RegisteredPair& pair, const Lattice& result, const RefinementLevel& level);
 
@@ -28,7 +29,7 @@ public:
 
   /**
    * Fraction by which the cost is less than beside the result; about 0 where the match is by
-   * chance. Absent if there are too few samples.
+   * chance. Absent if there are too few samples, or if a cost is no finite number.
    */
   std::optional<double> gain() const;
 
@@ -45,6 +46,7 @@ private:
   RegisteredPair Pair; // on points of that spacing; its mask is far within the tissue
   std::unique_ptr<PyramidLevel> Level;
   std::vector<double> Costs; // as it is, then beside it
+  bool IsFiner = false; // than the level it was made for
   bool IsFinished = false;
 };
 }

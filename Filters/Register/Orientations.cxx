@@ -229,7 +229,8 @@ std::string rotationText(const glm::dmat3& rotation, const glm::dmat3& axes)
   {
     return {};
   }
-  const glm::dvec3 about = axes * (vector / angle);
+  // An axis of rotation is a pseudovector: left-handed axes reverse it.
+  const glm::dvec3 about = glm::determinant(axes) * (axes * (vector / angle));
   std::string text = "rotated by " + std::to_string(std::lround(glm::degrees(angle))) +
     " degrees about the direction (";
   for (int axis = 0; axis < 3; ++axis)

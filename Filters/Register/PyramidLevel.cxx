@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/PyramidLevel.h"
 
+#include "Filters/Deformation/LatticeExtremes.h"
+
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -142,10 +144,25 @@ Mask sweptRegion(const Volume& ultrasound)
   return blocks;
 }
 
-Grid croppedTo(const Grid& grid, const Mask& region, double marginMm)
+namespace
 {
-  glm::dvec3 low(std::numeric_limits<double>::max());
-  glm::dvec3 high(-low);
+using Box = std::array<glm::dvec3, 2>; // its lowest and its highest corner
+
+Box emptyBox()
+{
+  const glm::dvec3 most(std::numeric_limits<double>::max());
+  return { most, -most };
+}
+
+void addTo(Box& box, const glm::dvec3& point)
+{
+  box = { glm::min(box[0], point), glm::max(box[1], point) };
+}
+
+// The box of what is inside, in points of a grid.
+Box boxOf(const Mask& region, const Grid& grid)
+{
+  Box box = emptyBox();
   const glm::ivec3 sides = region.grid.dimensions;
   for (int k = 0; k < sides.z; ++k)
   {
@@ -163,16 +180,19 @@ Grid croppedTo(const Grid& grid, const Mask& region, double marginMm)
       }
       for (const char* end : { first, last })
       {
-        const glm::dvec3 at = grid.gridFromWorld(region.grid.worldFromGrid({ end - row, j, k }));
-        low = glm::min(low, at);
-        high = glm::max(high, at);
+        addTo(box, grid.gridFromWorld(region.grid.worldFromGrid({ end - row, j, k })));
       }
     }
   }
-  const glm::dvec3 margin = marginMm / grid.spacing;
+  return box;
+}
+
+// The part of a grid within a margin of a box, both in points; the whole grid if they do not meet.
+Grid croppedTo(const Grid& grid, const Box& box, const glm::dvec3& margin)
+{
   const glm::dvec3 last(grid.dimensions - 1);
-  const glm::ivec3 first(glm::clamp(glm::floor(low - margin), glm::dvec3(0.0), last));
-  const glm::ivec3 end(glm::clamp(glm::ceil(high + margin), glm::dvec3(0.0), last));
+  const glm::ivec3 first(glm::clamp(glm::floor(box[0] - margin), glm::dvec3(0.0), last));
+  const glm::ivec3 end(glm::clamp(glm::ceil(box[1] + margin), glm::dvec3(0.0), last));
   if (glm::any(glm::lessThanEqual(end, first)))
   {
     return grid;
@@ -182,9 +202,22 @@ Grid croppedTo(const Grid& grid, const Mask& region, double marginMm)
   result.dimensions = end - first + 1;
   return result;
 }
+}
+
+Grid croppedTo(const Grid& grid, const Mask& region, double marginMm)
+{
+  return croppedTo(grid, boxOf(region, grid), marginMm / grid.spacing);
+}
 
 namespace
 {
+// Of a level that is checked: a self-similarity takes 208 bytes for each.
+constexpr double MostPoints = 4e6;
+constexpr double MostFinerPoints = 1e6; // of one that is finer than the plan's
+
+// Points beyond the box of what counts: the support of a metric, and where a check moves samples.
+constexpr double MarginPoints = 12.0;
+
 // Most samples of tissue on a capped level, so that a step stays short and memory small. Air costs
 // little.
 constexpr double MostSamples = 0.95e6;
@@ -199,10 +232,11 @@ constexpr float Air = 0.05f;         // fraction of the range of values
 // or more.
 constexpr double LeastInwardsMm = 20.0;
 
+constexpr double Coarser = 1.02; // times the spacing
+
 // The spacing of a level, raised until its number of samples is allowed.
 double spacingOf(const RefinementLevel& level, const Grid& rest, double tissueFraction)
 {
-  constexpr double Coarser = 1.02;
   double spacingMm = level.spacingMm;
   while (level.isCapped &&
     tissueFraction * static_cast<double>(coarseGrid(rest, spacingMm).count()) > MostSamples)
@@ -346,7 +380,53 @@ double ComparedRegion::finestSpacingMm(const RefinementLevel& level, const Grid&
 Grid ComparedRegion::grid(const RefinementLevel& level) const
 {
   const Grid grid = coarseGrid(this->Rest, this->spacingMm(level));
+  if (this->Counting)
+  {
+    const auto points = [&](const glm::dvec3& mm) { return mm / grid.spacing; };
+    const Box box{ points(this->Counting->front()), points(this->Counting->back()) };
+    return croppedTo(grid, box, glm::dvec3(MarginPoints));
+  }
   return this->Limits ? croppedTo(grid, this->Fan, this->Limits->marginMm) : grid;
+}
+
+void ComparedRegion::crop(const RegisteredPair& pair, const Lattice& bent)
+{
+  if (this->Limits)
+  {
+    return;
+  }
+  Grid mm = this->Rest;
+  mm.spacing = glm::dvec3(1.0);
+  const glm::dvec3 moved(maximumDisplacement(bent));
+  Box box = emptyBox();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 upper(corner & 1, corner >> 1 & 1, corner >> 2);
+    const glm::dvec3 last(pair.reference.grid.dimensions - 1);
+    addTo(box, mm.gridFromWorld(pair.reference.grid.worldFromGrid(upper * last)));
+  }
+  box = { box[0] - moved, box[1] + moved };
+  if (const Mask* inside = orNull(pair.inside))
+  {
+    const Box counts = boxOf(*inside, mm);
+    box = { glm::max(box[0], counts[0]), glm::min(box[1], counts[1]) };
+  }
+  this->Counting = { box[0] - moved, box[1] + moved };
+}
+
+bool ComparedRegion::allowsFiner(const RefinementLevel& level) const
+{
+  return static_cast<double>(this->grid(level).count()) <= MostFinerPoints;
+}
+
+RefinementLevel withinMemory(const RefinementLevel& level, const Grid& rest)
+{
+  RefinementLevel result = level;
+  while (static_cast<double>(coarseGrid(rest, result.spacingMm).count()) > MostPoints)
+  {
+    result.spacingMm *= Coarser;
+  }
+  return result;
 }
 
 bool ComparedRegion::isWorthwhile(

@@ -51,8 +51,17 @@ public:
 
   double spacingMm(const RefinementLevel& level) const;
 
-  /** The samples of a level, without those far from the fan. */
+  /** The samples of a level, without those far from the fan, or from the box of crop(). */
   Grid grid(const RefinementLevel& level) const;
+
+  /**
+   * From now on a level has no samples more than some points beyond the box of what counts: inside
+   * the mask, with a partner within the box of the reference. Only without a fan, which does so.
+   */
+  void crop(const RegisteredPair& pair, const Lattice& bent);
+
+  /** Whether a level that is finer than its plan says has few enough points. */
+  bool allowsFiner(const RefinementLevel& level) const;
 
   /** Whether a level that may be skipped is finer than the former one, and its cost low enough. */
   bool isWorthwhile(const RefinementLevel& level, const RefinementLevel& former, double cost) const;
@@ -77,9 +86,17 @@ private:
   Mask Fan;
   glm::dvec3 Middle{ 0.0 };
   glm::dvec3 Beam{ 0.0 };
-  double FanMm3 = 0.0; // of the volume's box, at most
-  double BoxMm3 = 0.0; // of the lattice
+  std::optional<std::array<glm::dvec3, 2>> Counting; // a box, mm along the axes of Rest, from it
+  double FanMm3 = 0.0;                               // of the volume's box, at most
+  double BoxMm3 = 0.0;                               // of the lattice
 };
+
+/**
+ * A level of a check, coarser if its grid over all of a volume had more points than memory should be
+ * taken for.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT RefinementLevel withinMemory(
+  const RefinementLevel& level, const Grid& rest);
 
 class PyramidLevel
 {

@@ -2,6 +2,7 @@
 #include "Filters/Register/Refinement.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace brainshift
 {
@@ -30,6 +31,7 @@ Refinement::Refinement(
   , Region(Pair, settings.plan)
 {
   this->State.setStiffness(this->Region.stiffness());
+  this->Shown = this->State.progress;
 }
 
 void Refinement::beginAt(const Lattice& lattice, const Controls& motion)
@@ -41,9 +43,9 @@ void Refinement::beginAt(const Lattice& lattice, const Controls& motion)
 
 const RefinementProgress& Refinement::step()
 {
-  if (this->State.progress.isFinished)
+  if (this->Shown.isFinished)
   {
-    return this->State.progress;
+    return this->Shown;
   }
   if (!this->Region.isFound())
   {
@@ -66,8 +68,8 @@ const RefinementProgress& Refinement::step()
   {
     this->takeStep();
   }
-  this->reportDone();
-  return this->State.progress;
+  this->report();
+  return this->Shown;
 }
 
 void Refinement::prepareLevel()
@@ -83,6 +85,13 @@ void Refinement::prepareLevel()
     return;
   }
   this->Here = std::make_unique<CostAndForces>(this->Level->compare(this->State.controls));
+  if (!std::isfinite(this->Here->cost))
+  {
+    this->State.progress.cost = this->Here->cost;
+    this->State.progress.isFinished = true;
+    this->Level = nullptr;
+    return;
+  }
   const std::vector<RefinementLevel>& levels = this->Settings.plan.levels;
   if (this->Index > 0 &&
     !this->Region.isWorthwhile(this->level(), levels[this->Index - 1], this->Here->cost))
@@ -177,19 +186,34 @@ void Refinement::reportOverlap()
   }
 }
 
-void Refinement::reportDone()
+// A search that began at a random position may still be far from the best result.
+bool Refinement::isBehind() const
+{
+  return this->Best && (!this->Step || this->Best->cost <= this->State.known.cost);
+}
+
+void Refinement::report()
 {
   const double levels = static_cast<double>(this->Settings.plan.levels.size());
   const double positions = static_cast<double>(this->Found.size() + this->Open.size() + 1);
   const double part = static_cast<double>(this->Found.size()) +
     static_cast<double>(this->StepsOfLevel) / this->Settings.mostStepsOf(this->level());
-  this->State.progress.done =
-    this->State.progress.isFinished ? 1.0 : (this->Index + part / positions) / levels;
+  this->Shown = this->State.progress;
+  this->Shown.done = this->Shown.isFinished ? 1.0 : (this->Index + part / positions) / levels;
+  if (this->isBehind())
+  {
+    this->Shown.cost = this->Best->cost;
+    this->Shown.overlap = this->Best->overlap;
+  }
 }
 
 void Refinement::finishPosition()
 {
   this->Found.push_back(this->State.position());
+  if (!this->Best || this->State.known.cost < this->Best->cost)
+  {
+    this->Best = { this->State.bent, this->State.known.cost, this->State.progress.overlap };
+  }
   if (this->Open.empty())
   {
     this->finishLevel();
@@ -217,6 +241,12 @@ void Refinement::finishLevel()
   }
   this->Found.clear();
   this->AtStart = nullptr;
+  if (this->Best)
+  {
+    this->State.progress.cost = this->Best->cost;
+    this->State.progress.overlap = this->Best->overlap;
+    this->Best = std::nullopt;
+  }
   if (next == levels.size())
   {
     this->State.progress.isFinished = true;

@@ -39,10 +39,13 @@ public:
    */
   const RefinementProgress& step();
 
-  const RefinementProgress& progress() const { return this->State.progress; }
+  const RefinementProgress& progress() const { return this->Shown; }
 
-  /** The lattice after the last step. */
-  const Lattice& lattice() const { return this->State.bent; }
+  /**
+   * The lattice after the last step. While a level searches from several positions, the best that
+   * it has found.
+   */
+  const Lattice& lattice() const { return this->isBehind() ? this->Best->lattice : this->State.bent; }
 
   /** Hands the volumes back, once it is finished. */
   RegisteredPair takePair() { return std::move(this->Pair); }
@@ -68,7 +71,8 @@ private:
   void compareNear();
   void begin(const RigidPosition& position);
   void reportOverlap();
-  void reportDone();
+  void report();
+  bool isBehind() const;
 
   RegisteredPair Pair;
   RefinementSettings Settings;
@@ -85,6 +89,16 @@ private:
   std::vector<RigidPosition> Open;        // from which this level is still to begin
   std::vector<RigidPosition> Found;       // on this level
   std::unique_ptr<RefinementStep> Step;
+
+  // What this level found from another position than the present one.
+  struct Result
+  {
+    Lattice lattice;
+    double cost = 0.0;
+    double overlap = 0.0;
+  };
+  std::optional<Result> Best;
+  RefinementProgress Shown; // of lattice()
 };
 }
 

@@ -40,7 +40,7 @@ struct RefinementProgress
 {
   int level = 0;             ///< from 0 on, the coarsest
   int steps = 0;             ///< on all levels
-  double cost = 0.0;         ///< of this level; 0: both volumes agree
+  double cost = 0.0;         ///< of this level; 0: both volumes agree; NaN ends the refinement
   double costAtStart = 0.0;  ///< of the lattice as it began, on the same level
   double movedMm = 0.0;      ///< longest move of a control point in the last step
   double stepFraction = 1.0; ///< smallest fraction of a step that the fold guard allowed

@@ -3,6 +3,7 @@
 
 #include "Filters/Register/RefinementSteps.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -16,6 +17,30 @@ constexpr double LeastRivalMm = 2.0;   // a place that is nearer is the same
 constexpr double LeastSamples = 800.0; // of a run over all of the compared part
 constexpr double LeastOfHalf = 200.0;  // samples
 constexpr double Finer = 0.5;          // times the spacing, if there are too few samples
+
+// How much samples tell the position of a control point, from its force.
+double weightOf(const float* force)
+{
+  return static_cast<double>(force[3]) + force[4] + force[5];
+}
+
+// A motion by the spacing of the samples changes the cost by more than this, or they tell nothing.
+// Flat tissue has the rounding of its smoothing, which is far below.
+constexpr double LeastChange = 1e-6;
+
+// Whether a comparison can move anything: else a run ends where it begins, which looks like a
+// perfect result.
+bool tellsPosition(const CostAndForces& compared, const Grid& samples)
+{
+  const double spacing = std::cbrt(pointVolume(samples));
+  double weights = 0.0;
+  for (std::size_t i = 0; i < compared.forces.size(); i += ForceNumbers)
+  {
+    weights += weightOf(&compared.forces[i]);
+  }
+  const double change = weights * spacing * spacing;
+  return std::isfinite(compared.cost) && std::isfinite(change) && change > LeastChange;
+}
 }
 
 ResultCheck::ResultCheck(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan,
@@ -24,7 +49,7 @@ ResultCheck::ResultCheck(RegisteredPair pair, const Lattice& result, const Refin
   , Plan(plan)
   , Region(Pair, plan)
   , Result(result)
-  , Now(plan.check.halves)
+  , Now(wanted())
   , Level(std::move(level))
 {
   if (this->Level)
@@ -36,9 +61,12 @@ ResultCheck::ResultCheck(RegisteredPair pair, const Lattice& result, const Refin
 
 ResultCheck::~ResultCheck() = default;
 
-const RefinementLevel& ResultCheck::wanted() const
+// A fan has its own limits.
+RefinementLevel ResultCheck::wanted() const
 {
-  return this->isByOther() ? this->Plan.check.other : this->Plan.check.halves;
+  const RefinementLevel& level =
+    this->isByOther() ? this->Plan.check.other : this->Plan.check.halves;
+  return this->Plan.fan ? level : withinMemory(level, this->Pair.rest.grid);
 }
 
 bool ResultCheck::step()
@@ -105,7 +133,7 @@ void ResultCheck::begin()
   }
   this->Level->restrictTo(this->isHalf() ? this->half() : HalfSpace{});
   CostAndForces here = this->Level->compare(this->State->controls);
-  if (here.samples < LeastOfHalf)
+  if (here.samples < LeastOfHalf || !tellsPosition(here, this->Level->grid()))
   {
     this->leaveOut();
     return;
@@ -114,7 +142,7 @@ void ResultCheck::begin()
   this->Step = makeStep(this->Plan, this->Now, this->Level->grid());
 }
 
-// Makes the level finer, or gives its metric up where it cannot be.
+// Makes the level finer, near what counts alone, or gives its metric up where it cannot be.
 bool ResultCheck::isTooCoarse(double samples)
 {
   if (samples >= LeastSamples)
@@ -123,10 +151,10 @@ bool ResultCheck::isTooCoarse(double samples)
   }
   RefinementLevel finer = this->Now;
   finer.spacingMm *= Finer;
-  const bool isFiner =
-    this->Region.grid(finer).dimensions != this->Region.grid(this->Now).dimensions;
+  this->Region.crop(this->Pair, this->Result);
+  const bool isFiner = this->Region.grid(finer).spacing != this->Region.grid(this->Now).spacing;
   this->Level = nullptr;
-  if (isFiner)
+  if (isFiner && this->Region.allowsFiner(finer))
   {
     this->Now = finer;
     return true;
@@ -154,8 +182,7 @@ void ResultCheck::weigh(const ControlForces& forces)
     {
       for (int i = 0; i < grid.dimensions.x; ++i)
       {
-        const float* force = &forces[this->Weights.size() * ForceNumbers];
-        const double weight = static_cast<double>(force[3]) + force[4] + force[5];
+        const double weight = weightOf(&forces[this->Weights.size() * ForceNumbers]);
         this->Weights.push_back(weight);
         this->Middle += weight * grid.worldFromGrid({ i, j, k });
         sum += weight;
@@ -174,8 +201,8 @@ void ResultCheck::takeStep()
   }
 }
 
-// The mean over the control points that samples move.
-double ResultCheck::motionMm(const Controls& a, const Controls& b) const
+// The mean over the control points that samples move; absent if they move none.
+std::optional<double> ResultCheck::motionMm(const Controls& a, const Controls& b) const
 {
   double sum = 0.0;
   double weights = 0.0;
@@ -184,7 +211,8 @@ double ResultCheck::motionMm(const Controls& a, const Controls& b) const
     sum += this->Weights[i] * glm::distance(a[i], b[i]);
     weights += this->Weights[i];
   }
-  return weights > 0.0 ? sum / weights : 0.0;
+  const double mean = sum / weights;
+  return weights > 0.0 && std::isfinite(mean) ? std::optional<double>(mean) : std::nullopt;
 }
 
 void ResultCheck::leaveOut()
@@ -201,9 +229,12 @@ void ResultCheck::finishHalf(const Controls& found)
   }
   else if (!found.empty() && !this->FirstHalf.empty())
   {
-    this->SumOfHalves += this->motionMm(found, this->FirstHalf);
-    ++this->Axes;
-    this->Figures.halvesMm = this->SumOfHalves / this->Axes;
+    if (const std::optional<double> mm = this->motionMm(found, this->FirstHalf))
+    {
+      this->SumOfHalves += *mm;
+      ++this->Axes;
+      this->Figures.halvesMm = this->SumOfHalves / this->Axes;
+    }
   }
 }
 
@@ -215,16 +246,17 @@ void ResultCheck::finishRival()
     this->Cost = cost;
     return;
   }
-  const double mm = this->motionMm(this->State->controls, this->State->startControls);
-  if (this->Cost <= 0.0)
+  const std::optional<double> mm =
+    this->motionMm(this->State->controls, this->State->startControls);
+  if (!(this->Cost > 0.0)) // also rejects NaN
   {
     return;
   }
   const double gain = cost / this->Cost - 1.0;
-  if (mm > LeastRivalMm && (!this->Figures.rivalGain || gain < *this->Figures.rivalGain))
+  if (mm && *mm > LeastRivalMm && (!this->Figures.rivalGain || gain < *this->Figures.rivalGain))
   {
     this->Figures.rivalGain = gain;
-    this->Figures.rivalMm = mm;
+    this->Figures.rivalMm = *mm;
   }
 }
 

@@ -21,7 +21,10 @@ namespace brainshift
 class RefinementStep;
 struct RefinementState;
 
-/** What a check found. A figure is absent if too few samples were compared. */
+/**
+ * What a check found. A figure is absent if too few samples were compared, or if none of them
+ * tells a position, as where one of the volumes is flat.
+ */
 struct CheckFigures
 {
   /** Mean distance (mm) of the ends of two halves, a mean over the axes of the volume. */
@@ -64,7 +67,7 @@ private:
 
   bool isHalf() const { return this->Run < HalfRuns; }
   bool isByOther() const { return this->Run == OtherRun; }
-  const RefinementLevel& wanted() const;
+  RefinementLevel wanted() const;
   void prepare();
   void begin();
   bool isTooCoarse(double samples);
@@ -76,7 +79,7 @@ private:
   void finishHalf(const Controls& found);
   void finishRival();
   void leaveOut();
-  double motionMm(const Controls& a, const Controls& b) const;
+  std::optional<double> motionMm(const Controls& a, const Controls& b) const;
 
   RegisteredPair Pair;
   RefinementPlan Plan;

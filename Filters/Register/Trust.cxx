@@ -63,7 +63,7 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
   Verdict verdict;
   if (!figures.halvesMm && !figures.otherMm)
   {
-    verdict.reasons.push_back("The result was not checked, because too little was compared.");
+    verdict.reasons.push_back("The result was not checked, because too little was compared that tells where tissue belongs.");
     return verdict;
   }
   verdict.trust = Trust::Good;
@@ -149,6 +149,22 @@ Verification::Verification(RegisteredPair pair, const Lattice& result, const Ref
   , IsOfHeads(!plan.fan)
   , Result(result)
 {
+}
+
+// A fan is checked on levels that the refinement has.
+double Verification::bytes(
+  const Grid& rest, const Grid& reference, const Grid& lattice, const RefinementPlan& plan)
+{
+  double most = 0.0;
+  for (const RefinementLevel& level : { plan.check.halves, plan.check.other })
+  {
+    if (level.metric && !plan.fan)
+    {
+      most =
+        std::max(most, PyramidLevel::bytes(rest, reference, lattice, withinMemory(level, rest)));
+    }
+  }
+  return most;
 }
 
 bool Verification::finishCheck()

@@ -77,6 +77,10 @@ public:
   Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan,
     std::unique_ptr<PyramidLevel> level = nullptr);
 
+  /** Bytes that the checks take beside the volumes themselves. */
+  static double bytes(
+    const Grid& rest, const Grid& reference, const Grid& lattice, const RefinementPlan& plan);
+
   /** False: it is finished. */
   bool step();
 

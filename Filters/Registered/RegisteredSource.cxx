@@ -5,6 +5,7 @@
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
+#include "Common/RankAgreement.h"
 #include "Common/SharedVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/Segmentation.h"
@@ -35,11 +36,15 @@ vtkDataArray* scalarsOf(vtkImageData* image)
   return scalars && scalars->GetNumberOfComponents() == 1 ? scalars : nullptr;
 }
 
-// The voxels that are not finite.
+// A comparison adds up squares of differences, which overflow above 1e18. Such values are no
+// measurements: files of netCDF have 9.97e36 where nothing was measured.
+constexpr double LargestValue = 1e17;
+
+// The voxels that have no number which can be compared.
 Mask unknownOf(const Volume& volume)
 {
   Mask unknown;
-  const auto isUnknown = [](float value) { return !std::isfinite(value); };
+  const auto isUnknown = [](float value) { return !(std::abs(value) <= LargestValue); };
   if (std::any_of(volume.values.begin(), volume.values.end(), isUnknown))
   {
     unknown.grid = volume.grid;
@@ -65,9 +70,9 @@ Volume volumeOf(vtkDataArray* array, const Grid& grid)
 void fillUnknown(Volume& volume, const Mask& unknown)
 {
   float low = std::numeric_limits<float>::max();
-  for (const float value : volume.values)
+  for (std::size_t i = 0; i < unknown.inside.size(); ++i)
   {
-    low = std::isfinite(value) ? std::min(low, value) : low;
+    low = unknown.inside[i] ? low : std::min(low, volume.values[i]);
   }
   for (std::size_t i = 0; i < unknown.inside.size(); ++i)
   {
@@ -123,28 +128,34 @@ void compareMovingTissue(vtkImageData* image, RegisteredPair& pair)
 
 vtkSmartPointer<vtkImageData> wholeOnFirstRank(vtkImageData* part, vtkInformation* information)
 {
-  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
-  std::string problem = problemOf([&] { findGrids(part); });
-  if (!ranks || ranks->GetNumberOfProcesses() == 1)
+  vtkMultiProcessController* ranks = severalRanks();
+  if (!ranks)
   {
-    throwIfAny(problem);
+    findGrids(part);
     requireWhole(part, information);
     return part;
   }
-  vtkNew<vtkImageData> sent; // without other arrays
+  vtkNew<vtkImageData> sent; // without other arrays, and without points if this rank has none
   Extent whole{ 0, -1, 0, -1, 0, -1 };
-  if (problem.empty())
+  information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole.data());
+  if (part)
   {
     sent->CopyStructure(part);
     sent->GetPointData()->SetScalars(scalarsOf(part));
     sent->GetFieldData()->ShallowCopy(part->GetFieldData());
-    information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole.data());
   }
   const WholeVolume volume = SharedVolume::wholeOf(ranks, sent, whole);
   const bool isFirst = ranks->GetLocalProcessId() == 0;
   const Extent wanted = isFirst ? volume.extent : Extent{ 0, -1, 0, -1, 0, -1 };
+  std::string problem;
   const auto image = SharedVolume().share(ranks, sent, volume, wanted, problem);
   throwIfAny(problem);
+  runOnAllRanks("The volume", [&] {
+    if (isFirst)
+    {
+      findGrids(image);
+    }
+  });
   return isFirst ? image : nullptr;
 }
 
@@ -228,7 +239,8 @@ void requireContent(
   const Mask* unknown = region.outside[1];
   if (unknown && !contentOf(volume, { nullptr, nullptr, { nullptr, unknown } }).hasAny)
   {
-    throw Problem("No voxel of " + name + " is a finite number, so there is nothing to compare");
+    throw Problem("No voxel of " + name + " is a finite number up to " + numberText(LargestValue) +
+      ", so there is nothing to compare");
   }
   const Content content = contentOf(volume, region);
   if (!content.hasAny)

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -49,6 +50,7 @@ struct vtkRegistrationRun::Running
   void BeginRigid(RegisteredSource source, const RegisteredGrids& grids, int starts);
   void BeginChecks();
   void FinishChecks();
+  void KeepBest();
   bool IsFinished() const;
   double Done() const;
 };
@@ -136,10 +138,7 @@ void vtkRegistrationRun::Running::FinishChecks()
   const Elsewhere found = this->Checks->elsewhere();
   if (this->Best && found.ml >= this->BestChecks->elsewhere().ml)
   {
-    this->OtherSteps += this->Elastic->progress().steps - this->Best->progress().steps;
-    this->Elastic = std::move(this->Best);
-    this->Checks = std::move(this->BestChecks);
-    this->Rounds = MostRounds + 1;
+    this->KeepBest();
     return;
   }
   if (this->Rounds > 0)
@@ -160,6 +159,15 @@ void vtkRegistrationRun::Running::FinishChecks()
       std::make_unique<Refinement>(this->BestChecks->takePair(), this->From, this->Settings);
     this->Elastic->beginAt(this->Best->lattice(), this->BestChecks->motionOfBlocks());
   }
+}
+
+// The present round found nothing better, or is stopped.
+void vtkRegistrationRun::Running::KeepBest()
+{
+  this->OtherSteps += this->Elastic->progress().steps - this->Best->progress().steps;
+  this->Elastic = std::move(this->Best);
+  this->Checks = std::move(this->BestChecks);
+  this->Rounds = MostRounds + 1;
 }
 
 bool vtkRegistrationRun::Running::IsFinished() const
@@ -249,8 +257,9 @@ void vtkRegistrationRun::Begin(bool bends)
     sizeof(float) * static_cast<double>(grids.rest.count() + grids.reference.count());
   requireHostMemory("The registration of " + sizeText(grids.rest.dimensions) + " voxels",
     voxels +
-      (bends ? Refinement::bytes(grids.rest, grids.reference, {}, settings)
-             : Alignment::bytes(grids.rest, grids.reference)));
+      std::max(Verification::bytes(grids.rest, grids.reference, {}, similarity.plan),
+        bends ? Refinement::bytes(grids.rest, grids.reference, {}, settings)
+              : Alignment::bytes(grids.rest, grids.reference)));
   RegisteredSource source = readSource(image);
   if (bends)
   {
@@ -305,6 +314,17 @@ void vtkRegistrationRun::Step()
     *this->Internal = {};
     this->Problem = "The registration stopped; see the messages";
   }
+}
+
+void vtkRegistrationRun::Stop()
+{
+  guarded(this, [this] {
+    if (this->Internal->Best)
+    {
+      this->Internal->KeepBest();
+      this->Report();
+    }
+  });
 }
 
 void vtkRegistrationRun::Advance()
@@ -447,6 +467,10 @@ void vtkRegistrationRun::ReportRefinement()
   if (at.steps > 0 && !(this->Overlap > 0.0)) // also rejects NaN
   {
     this->Refusal = "The volume and the reference do not overlap" + this->Internal->Outside;
+  }
+  else if (!std::isfinite(at.cost))
+  {
+    this->Refusal = "The cost is no finite number, so the volumes cannot be compared";
   }
   if (this->Cost > this->CostBefore)
   {

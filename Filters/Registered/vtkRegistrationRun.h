@@ -83,6 +83,12 @@ public:
    */
   void Step();
 
+  /**
+   * Ends it where it is. If a refinement goes on from a checked result, and has not yet found a
+   * better one, that result is kept, with its verdict. Otherwise nothing changes.
+   */
+  void Stop();
+
   ///@{
   /**
    * The position of the reference at the start of an alignment, as its Compare Volumes has it:

@@ -11,7 +11,6 @@
 #include <pqPipelineSource.h>
 #include <pqUndoStack.h>
 
-#include <vtkCommand.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
@@ -84,11 +83,11 @@ void AlignEditor::followDeformation()
   {
     return;
   }
+  this->watch(bent->getProxy());
+  this->watch(vtkSMPropertyHelper(bent->getProxy(), "Lattice", /*quiet*/ true).GetAsProxy());
   this->Edits = { this->connect(
                     StrokeEditor::of(bent), &StrokeEditor::aboutToEdit, this, &AlignEditor::stop),
     this->connect(FitEditor::of(bent), &FitEditor::aboutToEdit, this, &AlignEditor::stop) };
-  this->OfDeformation->Connect(bent->getProxy(), vtkCommand::PropertyModifiedEvent, this,
-    SLOT(notice(vtkObject*, unsigned long, void*, void*)));
 }
 
 void AlignEditor::begin()
@@ -252,7 +251,6 @@ void AlignEditor::restore()
 
 void AlignEditor::release()
 {
-  this->OfDeformation->Disconnect();
   for (const QMetaObject::Connection& edit : this->Edits)
   {
     QObject::disconnect(edit);
@@ -266,13 +264,18 @@ bool AlignEditor::dependsOn(vtkObject* object, const char* property) const
   {
     return isAmong(Placement, property) || isAmong(Dependencies, property);
   }
-  auto deformation = vtkSMSourceProxy::SafeDownCast(object);
-  const StrokeEditor* strokes = StrokeEditor::of(deformation);
+  auto proxy = vtkSMProxy::SafeDownCast(object);
+  if (!proxy->GetProperty("Strokes")) // a lattice; an edit of it has stopped a search already
+  {
+    vtkSMProperty* changed = proxy->GetProperty(property);
+    return !this->isActive() && changed && !changed->GetInformationOnly();
+  }
+  const StrokeEditor* strokes = StrokeEditor::of(vtkSMSourceProxy::SafeDownCast(proxy));
   if (std::strcmp(property, "Strength") == 0 && strokes && strokes->showsBefore())
   {
     return false; // it comes back
   }
-  return isAmong(DeformationDependencies, property) || isLatticeSetting(deformation, property);
+  return isAmong(DeformationDependencies, property) || isLatticeSetting(proxy, property);
 }
 
 void AlignEditor::followChange(vtkObject* object, const char* property)

@@ -75,7 +75,6 @@ private:
   ReferencePlacement Result; ///< after the last step
 
   // While it is active:
-  vtkNew<vtkEventQtSlotConnect> OfDeformation;
   QList<QMetaObject::Connection> Edits; ///< To the editors whose edits stop it.
 };
 }

@@ -63,6 +63,7 @@ vtkSMProxy* LiveRun::makeRun(vtkSMProxy* compared)
 
 QString LiveRun::beginRun(const char* command)
 {
+  this->OfOthers->Disconnect();
   this->Proxy->UpdateVTKObjects();
   this->Proxy->InvokeCommand(command);
   this->Proxy->UpdatePropertyInformation();
@@ -79,6 +80,17 @@ bool LiveRun::advance()
   this->Proxy->InvokeCommand("Step");
   this->Proxy->UpdatePropertyInformation();
   return this->text("Problem").isEmpty();
+}
+
+bool LiveRun::settle()
+{
+  if (!this->Proxy || !this->Proxy->GetSession()->GetIsAlive())
+  {
+    return false;
+  }
+  this->Proxy->InvokeCommand("Stop");
+  this->Proxy->UpdatePropertyInformation();
+  return true;
 }
 
 double LiveRun::figure(const char* name) const
@@ -100,6 +112,7 @@ void LiveRun::start()
 {
   this->Problem = QString();
   this->HasDiscarded = false;
+  this->HasChangedSince = false;
   this->Now = State::Running;
   qApp->installEventFilter(this);
   this->Next.start();
@@ -138,6 +151,7 @@ void LiveRun::keepDiscarded()
     return;
   }
   this->HasDiscarded = false;
+  this->HasChangedSince = false;
   this->putResult();
   this->end(State::Finished, {});
 }
@@ -155,11 +169,21 @@ void LiveRun::end(State end, const QString& problem)
   Q_EMIT this->changed();
 }
 
+void LiveRun::watch(vtkSMProxy* proxy)
+{
+  if (proxy)
+  {
+    this->OfOthers->Connect(proxy, vtkCommand::PropertyModifiedEvent, this,
+      SLOT(notice(vtkObject*, unsigned long, void*, void*)));
+  }
+}
+
 void LiveRun::notice(vtkObject* proxy, unsigned long, void*, void* name)
 {
   const auto property = static_cast<const char*>(name);
-  if (this->Writing || !(this->isActive() || this->HasDiscarded) ||
-    !this->dependsOn(proxy, property))
+  const bool hasResult = this->Now == State::Kept || this->Now == State::Finished;
+  if (this->Writing || !(this->isActive() || this->HasDiscarded || hasResult) ||
+    this->HasChangedSince || !this->dependsOn(proxy, property))
   {
     return;
   }
@@ -169,6 +193,7 @@ void LiveRun::notice(vtkObject* proxy, unsigned long, void*, void* name)
     return;
   }
   this->HasDiscarded = false; // it started from something else
+  this->HasChangedSince = hasResult;
   Q_EMIT this->changed();
 }
 

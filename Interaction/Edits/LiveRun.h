@@ -50,6 +50,9 @@ public:
   /// Why it could not begin or why it ended early: a sentence. Empty if neither happened.
   const QString& problem() const { return this->Problem; }
 
+  /// Whether something that the kept result depends on changed since: its figures no longer hold.
+  bool hasChangedSince() const { return this->HasChangedSince; }
+
   /// While it runs, Escape cancels it, wherever the keyboard is.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -69,6 +72,8 @@ protected:
   QString beginRun(const char* command);
   /// Takes a step, or a part of one. False if it failed or the server is gone.
   bool advance();
+  /// Lets the RegistrationRun choose what it keeps if it ends now. False: it is gone.
+  bool settle();
   /// Properties of the RegistrationRun, as of the last step.
   double figure(const char* name) const;
   QString text(const char* name) const;
@@ -80,6 +85,8 @@ protected:
   void end(State end, const QString& problem);
   /// Restores the state before it, as cancel() does. A result that failed its checks can be kept.
   void discard(const QString& reason);
+  /// Connects the properties of a proxy to notice(), until the next run begins. Null has none.
+  void watch(vtkSMProxy* proxy);
 
   /// Takes a step and shows it. Starts `Next`, unless it ended.
   virtual void takeStep() = 0;
@@ -91,8 +98,7 @@ protected:
   virtual void restore() = 0;
   /// Releases the members that are used while it is active.
   virtual void release() = 0;
-  /// Whether the result depends on a property: of the source, or of another proxy connected to
-  /// notice().
+  /// Whether the result depends on a property: of the source, or of another proxy that it watches.
   virtual bool dependsOn(vtkObject* proxy, const char* property) const = 0;
   /// Such a property changed from outside while it is active.
   virtual void followChange(vtkObject* proxy, const char* property) = 0;
@@ -111,8 +117,10 @@ private:
   void followApplication();
 
   bool HasDiscarded = false;
+  bool HasChangedSince = false;
 
   vtkNew<vtkEventQtSlotConnect> OfSource;
+  vtkNew<vtkEventQtSlotConnect> OfOthers; // what else the result depends on
   vtkSmartPointer<vtkSMProxy> Proxy;
 };
 }

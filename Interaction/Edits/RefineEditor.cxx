@@ -2,6 +2,7 @@
 #include "Interaction/Edits/RefineEditor.h"
 
 #include "Interaction/Commands/Application.h"
+#include "Interaction/Edits/AlignEditor.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/Lineage.h"
 #include "Interaction/Edits/LivePicture.h"
@@ -89,6 +90,9 @@ vtkSmartPointer<vtkSMProxy> comparisonFor(
 // A refinement depends on these properties, beside the settings of the lattice. A change of one of
 // them ends it.
 constexpr const char* Dependencies[] = { "Input", "Lattice", "Strokes", "Strength" };
+// And on these of its Compare Volumes.
+constexpr const char* CompareDependencies[] = { "Input", "Reference", "ReferenceRotation",
+  "ReferenceTranslation", "Cavity", "CavityLabels" };
 
 bool isRefined(vtkSMProxy* lattice)
 {
@@ -188,19 +192,19 @@ void RefineEditor::followRemoval(pqPipelineSource* source)
   }
   else if (source == this->Reference)
   {
-    this->followReference(source->getSMName());
+    this->followReference(tr("%1 was deleted").arg(source->getSMName()));
   }
 }
 
-// Later: the deletion of the reference is an undo step of its own.
-void RefineEditor::followReference(const QString& name)
+// Later: what happened to the reference is an undo step of its own.
+void RefineEditor::followReference(const QString& happened)
 {
   this->Next.stop();
-  QTimer::singleShot(0, this, [this, name] {
+  QTimer::singleShot(0, this, [this, happened] {
     if (this->isActive())
     {
       this->stop();
-      this->Problem = tr("%1 was deleted. The result so far is kept.").arg(name);
+      this->Problem = tr("%1. The result so far is kept.").arg(happened);
       Q_EMIT this->changed();
     }
   });
@@ -216,6 +220,7 @@ void RefineEditor::begin(const RefineSettings& settings)
   this->cancel();
   StrokeEditor::of(this->Source)->cancel();
   FitEditor::of(this->Source)->cancel();
+  this->stopAligning(settings.reference);
   this->Figures = {};
   this->Costs.clear();
   const QString problem = this->beginRefinement(settings);
@@ -225,10 +230,25 @@ void RefineEditor::begin(const RefineSettings& settings)
     return;
   }
   this->Reference = settings.reference;
+  this->watch(isComparison(settings.reference) ? settings.reference->getProxy() : nullptr);
   this->IsDrawn = true;
   this->Unselected.leaveOut(this->Source);
   this->hold();
   this->start();
+}
+
+// What is compared is the position that is kept, not one of a search that goes on.
+void RefineEditor::stopAligning(pqPipelineSource* reference)
+{
+  QList<pqPipelineSource*> comparisons = comparisonsOf(this->Source);
+  comparisons.append(reference);
+  for (pqPipelineSource* compare : comparisons)
+  {
+    if (AlignEditor* editor = AlignEditor::of(compare))
+    {
+      editor->stop();
+    }
+  }
 }
 
 QString RefineEditor::beginRefinement(const RefineSettings& settings)
@@ -371,6 +391,15 @@ void RefineEditor::pause(bool on)
 
 void RefineEditor::keep(State end)
 {
+  if (end == State::Kept && this->settle())
+  {
+    this->readFigures();
+    if (!this->Figures.refusal.isEmpty())
+    {
+      this->discard(tr("%1. Nothing was changed.").arg(this->Figures.refusal));
+      return;
+    }
+  }
   // Undo returns to the last state that the session saw, so restore the start first.
   this->restore();
   this->putResult();
@@ -401,6 +430,7 @@ void RefineEditor::putResult()
     this->putIn(lattice, this->Points);
     lattice->SetAnnotation("BrainShift.Refined", this->found().constData());
     keepFitted(lattice, landmarks);
+    this->watch(lattice); // undo may change its control points alone
   }
   vtkSMProxy* proxy = this->Source->getProxy();
   vtkSMSourceProxy::SafeDownCast(proxy)->UpdatePipeline();
@@ -483,21 +513,35 @@ void RefineEditor::abandon(const QString& problem)
   this->end(State::Idle, problem);
 }
 
-bool RefineEditor::dependsOn(vtkObject*, const char* property) const
+bool RefineEditor::dependsOn(vtkObject* object, const char* property) const
 {
   if (std::strcmp(property, "Strength") == 0 && StrokeEditor::of(this->Source)->showsBefore())
   {
     return false; // it comes back
   }
   const auto isChanged = [property](const char* name) { return std::strcmp(property, name) == 0; };
+  if (object != this->Source->getProxy())
+  {
+    return isRefined(vtkSMProxy::SafeDownCast(object))
+      ? isChanged("ControlPoints")
+      : std::any_of(std::begin(CompareDependencies), std::end(CompareDependencies), isChanged);
+  }
   return std::any_of(std::begin(Dependencies), std::end(Dependencies), isChanged) ||
     isLatticeSetting(this->Source->getProxy(), property);
 }
 
 // The result would not fit to what was changed, so base and strokes come back. Whoever changes a
 // property sends them, too: before and after are one undo step of theirs.
-void RefineEditor::followChange(vtkObject*, const char* property)
+void RefineEditor::followChange(vtkObject* object, const char* property)
 {
+  if (object != this->Source->getProxy())
+  {
+    const auto compare = vtkSMProxy::SafeDownCast(object);
+    this->followReference(tr("%1 of %2 was changed")
+        .arg(QString(compare->GetProperty(property)->GetXMLLabel()),
+          this->Reference ? this->Reference->getSMName() : QString()));
+    return;
+  }
   vtkSMProxy* deformation = this->Source->getProxy();
   const pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
   const bool bringsAll = stack && (stack->getInUndo() || stack->getInRedo());

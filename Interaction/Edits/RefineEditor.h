@@ -104,7 +104,8 @@ private:
   void putBack();         ///< Restores base and strokes.
   void putBaseBack();     ///< Sets the property alone.
   void releaseHeldSoon(); ///< Releases the temporary lattice; it is deleted later.
-  void followReference(const QString& name);
+  void stopAligning(pqPipelineSource* reference);
+  void followReference(const QString& happened);
   vtkSmartPointer<vtkSMProxy> lattice() const;
 
   RefineFigures Figures;

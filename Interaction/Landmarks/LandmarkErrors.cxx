@@ -11,6 +11,11 @@
 
 namespace brainshift
 {
+namespace
+{
+constexpr double Noticed = 0.5; // mm and degrees: landmarks are found again to within this
+}
+
 LandmarkErrors* LandmarkErrors::of(pqPipelineSource* deformation)
 {
   if (!isDeformation(deformation))
@@ -37,12 +42,29 @@ void LandmarkErrors::follow()
   if (now == LiveRun::State::Running && !wasActive)
   {
     this->Errors.clear();
-    this->AtStart = LandmarkList::of(this->Deformation)->rows();
+    const LandmarkList* landmarks = LandmarkList::of(this->Deformation);
+    this->AtStart = landmarks->rows();
+    this->ShiftAtStart = landmarks->figures().shift;
+    this->DegreesAtStart = landmarks->figures().rotationDegrees;
   }
   else if (now != last && (now == LiveRun::State::Kept || now == LiveRun::State::Finished))
   {
     this->measure();
   }
+}
+
+// The fit left the motion out, and the refinement began without it.
+QString LandmarkErrors::note() const
+{
+  if (this->Errors.isEmpty() ||
+    !(this->ShiftAtStart > Noticed || this->DegreesAtStart > Noticed)) // also rejects NaN
+  {
+    return {};
+  }
+  return tr("The fit before left out a rigid motion of %1 mm and %2 degrees. If the landmarks were "
+            "measured in another position of the reference, the errors contain this motion.")
+    .arg(this->ShiftAtStart, 0, 'f', 1)
+    .arg(this->DegreesAtStart, 0, 'f', 1);
 }
 
 void LandmarkErrors::measure()

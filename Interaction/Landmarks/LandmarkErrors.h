@@ -32,6 +32,8 @@ public:
   /// In the order of the list of landmarks. Empty while a refinement runs, if none was kept, and if
   /// there were no landmarks when it began.
   const QList<LandmarkError>& errors() const { return this->Errors; }
+  /// What to know about all errors: a sentence. Empty if nothing.
+  QString note() const;
 
 private:
   explicit LandmarkErrors(pqPipelineSource* deformation);
@@ -43,6 +45,8 @@ private:
   RefineEditor* const Editor;
   LiveRun::State Last = LiveRun::State::Idle;
   std::vector<LandmarkRow> AtStart;
+  double ShiftAtStart = 0.0;   // mm, of the rigid motion that the fit before left out
+  double DegreesAtStart = 0.0; // the same
   QList<LandmarkError> Errors;
 };
 }

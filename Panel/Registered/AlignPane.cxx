@@ -121,6 +121,11 @@ void AlignPane::report()
         report = tr("Stopped before the first step; nothing has changed.");
         break;
       }
+      if (this->Editor->hasChangedSince())
+      {
+        report = changedText(figures.lines);
+        break;
+      }
       report = alignResult(
         this->Editor->state() == AlignEditor::State::Kept ? tr("Stopped") : tr("Finished"),
         figures);

@@ -62,6 +62,15 @@ QString trustText(const QString& trust)
                            : CostPlot::tr("The result was not checked.");
 }
 
+QString changedText(int steps)
+{
+  return steps > 0
+    ? CostPlot::tr("It ended after %1 steps. The deformation or its reference has changed since, so "
+                   "the figures no longer hold.")
+        .arg(steps)
+    : QString();
+}
+
 QString checkingText()
 {
   return CostPlot::tr("Checking the result ...");
@@ -83,7 +92,7 @@ QString tableRow(const QString& name, double before, double now)
 }
 }
 
-QString errorTable(const QList<LandmarkError>& errors)
+QString errorTable(const QList<LandmarkError>& errors, const QString& note)
 {
   if (errors.isEmpty())
   {
@@ -108,7 +117,9 @@ QString errorTable(const QList<LandmarkError>& errors)
       .arg(CostPlot::tr("Landmark error (mm)"), CostPlot::tr("before"), CostPlot::tr("now"));
   return "<table>" + head + tableRow(CostPlot::tr("mean"), mean.before, mean.now) +
     tableRow(CostPlot::tr("largest"), largest.before, largest.now) + rows + "</table>" +
-    (hasFitted ? CostPlot::tr("* fitted before, so its error before is no judge") : QString());
+    (hasFitted ? "<p>" + CostPlot::tr("* fitted before, so its error before is no judge") + "</p>"
+               : QString()) +
+    (note.isEmpty() ? QString() : "<p>" + note + "</p>");
 }
 
 void showTexts(QLabel* report, const QString& text, QLabel* warning, const QString& warningText)

@@ -24,14 +24,17 @@ QLabel* makeText(const char* name);
 /// A sentence about the trust in a result (AlignFigures::trust).
 QString trustText(const QString& trust);
 
+/// What is said of a result if something that it depends on has changed since; empty without steps.
+QString changedText(int steps);
+
 /// A sentence while the result is checked.
 QString checkingText();
 
 /// Keeps a result that failed its checks. Hidden while there is none.
 QToolButton* makeKeep(const char* name);
 
-/// A table of the errors of landmarks, as rich text. Empty if there are none.
-QString errorTable(const QList<LandmarkError>& errors);
+/// A table of the errors of landmarks with a note below it, as rich text. Empty without errors.
+QString errorTable(const QList<LandmarkError>& errors, const QString& note);
 
 /// Shows a report and a warning, each hidden if it is empty.
 void showTexts(QLabel* report, const QString& text, QLabel* warning, const QString& warningText);

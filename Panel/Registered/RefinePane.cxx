@@ -411,6 +411,11 @@ void RefinePane::report()
             this->Editor->state() == RefineEditor::State::Kept ? tr("Stopped") : tr("Finished"),
             figures)
         : tr("Stopped before the first step; nothing has changed.");
+      if (this->Editor->hasChangedSince())
+      {
+        report = changedText(figures.steps);
+        break;
+      }
       warning += (warning.isEmpty() || figures.steps == 0 ? "" : " ") +
         (figures.steps > 0 ? refineWarning(figures) : QString());
       break;
@@ -418,8 +423,9 @@ void RefinePane::report()
       break;
   }
   showTexts(this->Report, report, this->Warning, warning);
-  const QString errors = this->OfLandmarks && this->Editor->state() != RefineEditor::State::Idle
-    ? errorTable(this->OfLandmarks->errors())
+  const QString errors = this->OfLandmarks &&
+      this->Editor->state() != RefineEditor::State::Idle && !this->Editor->hasChangedSince()
+    ? errorTable(this->OfLandmarks->errors(), this->OfLandmarks->note())
     : QString();
   this->Errors->setText(errors);
   this->Errors->setVisible(!errors.isEmpty());

@@ -8,6 +8,7 @@ import os
 
 from .files import _write, reason_of
 from .fitting import _cortex, _names, _opening, _point_axes, _points, fit
+from .images import source_of
 from .points import Points, read_points
 from .views import world_axes
 
@@ -73,7 +74,7 @@ class Electrodes:
         names = [labels.GetValue(i) for i in range(count)]
         rest, bent = vtk_to_numpy(output.GetPoints().GetData()).copy(), numbers("Bent")
         self.missing = {names[i]: (rest[i], bent[i]) for i in numpy.nonzero(~found)[0]}
-        self.names = names[:int(found.sum())]
+        self.names = [name for name, is_found in zip(names, found) if is_found]
         self.rest, self.bent, self.measured = rest[found], bent[found], numbers("Measured")[found]
         self.floating, self.deviation = numbers("Outside")[found], numbers("Deviation")[found]
         self.leave_one_out = numbers("LeftOut")[found]
@@ -110,7 +111,7 @@ class Electrodes:
         `type` and its shape as `dimension`.
 
         Raises `ValueError` for another ending, or if the axes of the contacts are not RAS, and
-        `OSError` if a file cannot be written.
+        `OSError` if a file cannot be written, as markups while a server is connected.
         """
         name = os.fspath(name)
         if self._axes == "LPS":
@@ -224,9 +225,10 @@ def _save_markups(found, name):
         axes.InsertNextValue(found._axes)
         data.GetFieldData().AddArray(axes)
     active = simple.GetActiveSource()
-    source = simple.TrivialProducer()
+    source = source_of(data, OSError(
+        f"{name} was not written: the server writes markups, and gets no contacts from here. Save "
+        "another kind of file"))
     try:
-        source.GetClientSideObject().SetOutput(data)
         _write(servermanager.writers.LandmarkWriter(Input=source, FileName=name), name)
     finally:
         simple.Delete(source)
@@ -289,7 +291,6 @@ def sheet_left_out(source):
 def _mesh(cortex):
     """A ParaView source of a surface that is given as points and triangles."""
     import numpy
-    from paraview import simple
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -308,9 +309,9 @@ def _mesh(cortex):
     cells.SetCells(len(triangles), numpy_to_vtkIdTypeArray(filled.ravel(), deep=True))
     surface.SetPoints(positions)
     surface.SetPolys(cells)
-    source = simple.TrivialProducer(registrationName="Cortex")
-    source.GetClientSideObject().SetOutput(surface)
-    return source
+    return source_of(surface, ValueError(
+        "cortex is points and triangles, which a server does not get from here; give a ParaView "
+        "source of a surface"), registrationName="Cortex")
 
 
 def _regions(atlas, rest):
@@ -356,8 +357,8 @@ def electrodes(contacts, cortex, deformation=None, threshold=None, label=None, a
 
     - `contacts`: path of a file for `read_points`, a result of it, or an N x 3 array in mm,
       measured frame. The columns group, type and dimension of a BIDS table count.
-    - `cortex`: the cortex at rest: a ParaView source of a volume, labels or a surface, or a pair of
-      points (N x 3, mm) and triangles (M x 3). A brain without sulci is best.
+    - `cortex`: the cortex at rest: a ParaView source of a volume, labels or a surface, or, without
+      a server, a pair of points (N x 3, mm) and triangles (M x 3). A brain without sulci is best.
     - `deformation`: a Free-Form Deformation. Its `Lattice` becomes a fit of the contacts. Default
       `None`: none is bent.
     - `threshold` or `label`: the scalars of the cortex in a volume. The default is a threshold of

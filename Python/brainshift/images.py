@@ -13,6 +13,18 @@ def fetched(source):
     return image
 
 
+def source_of(data, refusal, **names):
+    """A ParaView source of a VTK data set of this process. `names`: as of `simple.TrivialProducer`.
+    Raises `refusal`, an exception, while a server is connected: ParaView sends it no data."""
+    from paraview import servermanager, simple
+
+    if servermanager.ActiveConnection.IsRemote():
+        raise refusal
+    source = simple.TrivialProducer(**names)
+    source.GetClientSideObject().SetOutput(data)
+    return source
+
+
 def interpolated(values, places):
     """Trilinear values of an array at fractional indices.
 

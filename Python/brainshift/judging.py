@@ -13,7 +13,8 @@ class TargetErrors:
     - `before`: the same without the deformation
     - `names`: the names of the pairs; empty if they were paired by order
     - `mean`, `median`, `rms`, `largest`: of `errors`
-    - `unpaired`: names on one list only
+    - `unpaired`: names on one list only, and points without a name where others have one, such as
+      "point 2 of rest"
 
     Printed, it is a line of figures.
     """
@@ -40,6 +41,10 @@ def _unique(name, names):
     return {one: index for index, one in enumerate(names) if one}
 
 
+def _nameless(name, names):
+    return [f"point {index + 1} of {name}" for index, one in enumerate(names) if not one]
+
+
 def _paired(rest, measured, by_order):
     """The two arrays in the order of pairs, the names of these, and the names without a partner."""
     places, targets = _points("rest", rest), _points("measured", measured)
@@ -51,6 +56,7 @@ def _paired(rest, measured, by_order):
             raise ValueError("no name is both in rest and in measured; by_order=True pairs "
                              "landmarks by their order")
         alone = [name for name in (*names, *others) if name not in names or name not in others]
+        alone += _nameless("rest", _names(rest)) + _nameless("measured", _names(measured))
         return (places[[names[name] for name in common]],
                 targets[[others[name] for name in common]], common, alone)
     if len(places) != len(targets):
@@ -75,7 +81,8 @@ def tre(filter, rest, measured, by_order=False):
       mm in the same order, or a result of `read_points`. After `align`, move them by the `matrix`
       of its result first.
     - `by_order`: True pairs landmarks by their order, whatever their names. The default, False,
-      pairs results of `read_points` by name if both have names.
+      pairs results of `read_points` by name if both have names; points without a name are then
+      unpaired.
 
     Returns a `TargetErrors`.
 

@@ -62,6 +62,12 @@ class _Run:
 
         return numpy.array(numbers(self.proxy, name))
 
+    def read(self, result):
+        """Gives a result its figures, as of the last step."""
+        for name, figure in result.FIGURES.items():
+            setattr(result, name, self.figure(figure))
+        result.finished = bool(self.figure("Finished"))
+
     def steps(self, result, callback):
         """Steps until it is finished or the callback returns False. Gives the result its figures.
 
@@ -78,13 +84,14 @@ class _Run:
                 self.proxy.UpdatePropertyInformation(figure)
             if self.figure("Problem"):
                 raise RuntimeError(self.figure("Problem"))
-            for name, figure in result.FIGURES.items():
-                setattr(result, name, self.figure(figure))
-            result.finished = bool(self.figure("Finished"))
+            self.read(result)
             # A call may have tried a length of a step only, or prepared a level.
             stop = (callback is not None and result.steps != taken and callback(result) is False)
             taken = result.steps
+        if stop:
+            self.proxy.InvokeCommand("Stop")
         self.proxy.UpdatePropertyInformation()
+        self.read(result)
         result.trust = self.figure("Trust")
         result.warnings = [line for line in self.figure("Warning").split("\n") if line]
         if self.figure("Refusal"):
@@ -312,7 +319,8 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     - `cavity`: a ParaView source of a mask, if `reference` is no Compare Volumes. Tissue inside
       it does not count.
     - `callback`: is called after each step with the `Refinement` so far. If it returns `False`,
-      that is the result, and it is not checked. The default is `None`.
+      that is the result, and it is not checked; once the refinement goes on from a checked result,
+      that one is kept, unless a better one is known. The default is `None`.
     - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
       `False`: it is an error, and the deformation stays as it was.
     - `starts`: number of positions from which the volume moves rigidly before it bends, 1 to 64.

@@ -3,7 +3,7 @@
 
 from .casesources import kept, stem
 from .fitting import Fit, away_from_fit, is_kind, rigid_of
-from .images import Labels, fetched, interpolated
+from .images import Labels, fetched, interpolated, source_of
 from .maps import deformed_from_rest, rest_from_deformed
 
 #: Distances (mm) at which the deformation and its draws are evaluated; linear in between. The
@@ -72,7 +72,7 @@ class Resection:
         - `name`, `world`: as in `save_volume`
 
         Raises `ValueError` for another frame, and `OSError` with the reason if the file is not
-        written.
+        written, also while a server is connected.
         """
         from paraview import simple
 
@@ -82,9 +82,10 @@ class Resection:
         if frame not in maps:
             raise ValueError(f'frame is {frame!r}; it must be "rest" or "deformed"')
         active = simple.GetActiveSource()
-        source = simple.TrivialProducer()
+        source = source_of(maps[frame], OSError(
+            f"{name} was not written: the server writes files, and gets no map from here. "
+            "Disconnect from the server, and save then"))
         try:
-            source.GetClientSideObject().SetOutput(maps[frame])
             save_volume(source, name, world=world)
         finally:
             simple.Delete(source)

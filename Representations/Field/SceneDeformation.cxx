@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/SceneDeformation.h"
 
+#include "Common/Guard.h"
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Representations/Scene/FieldPlace.h"
@@ -24,19 +25,34 @@ bool SceneDeformation::update(vtkImageData* image, std::string& problem)
   this->time = latest;
   this->deformed = false; // not before all of it succeeded
   this->Map.reset();
-  Deformation source;
-  problem = problemOf([&] {
+  this->Problem = sentenceThrownBy("The deformation", [&] {
     if (carriesDeformation(image))
     {
-      source = readDeformation(image);
-      this->lattice = effectiveLattice(source);
-      requireOffsetFieldMemory(this->lattice, source.samples);
+      this->read(image);
+      this->deformed = true;
     }
   });
-  if (!problem.empty() || !carriesDeformation(image))
+  problem = this->Problem;
+  return problem.empty();
+}
+
+void SceneDeformation::require(vtkImageData* image)
+{
+  if (!this->Problem.empty())
   {
-    return problem.empty();
+    this->Problem.clear();
+    this->time = 0;
   }
+  std::string problem;
+  this->update(image, problem);
+  throwIfAny(this->Problem);
+}
+
+void SceneDeformation::read(vtkImageData* image)
+{
+  Deformation source = readDeformation(image);
+  this->lattice = effectiveLattice(source);
+  requireOffsetFieldMemory(this->lattice, source.samples);
   this->deviations = std::move(source.deviations);
   this->request.dimensions = this->lattice.grid.dimensions;
   this->request.kernel = this->lattice.kernel;
@@ -46,8 +62,6 @@ bool SceneDeformation::update(vtkImageData* image, std::string& problem)
   this->request.nodes = backwardNodes(this->lattice.grid, this->request.inCells, source.samples);
   this->request.mask = this->lattice.mask;
   this->moved = movedHull(this->lattice.grid.dimensions, this->request.inCells);
-  this->deformed = true;
-  return true;
 }
 
 const PointMap& SceneDeformation::map()

@@ -30,8 +30,12 @@ struct SceneDeformation
   SlabHull moved; ///< Where tissue may have moved, lattice coordinates.
 
   /// Reads the deformation of the image if it changed. False, with one sentence in `problem`, if it
-  /// is malformed: `deformed` is then false.
+  /// cannot: `deformed` is then false. It does not try again before the deformation changes.
   bool update(vtkImageData* image, std::string& problem);
+
+  /// Reads the deformation of the image if it changed, or tries again what failed. Throws a Problem
+  /// if it cannot.
+  void require(vtkImageData* image);
 
   /// The exact maps of the lattice, made when they are first asked for.
   const PointMap& map();
@@ -45,6 +49,9 @@ struct SceneDeformation
   unsigned long long time = 0; ///< Of what was read.
 
 private:
+  void read(vtkImageData* image);
+
+  std::string Problem;           // why the deformation was not read; empty: it was
   std::unique_ptr<PointMap> Map; // of the lattice; null: not asked for yet
 };
 

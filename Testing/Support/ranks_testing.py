@@ -460,17 +460,25 @@ def answers(folder=None):
     return found
 
 
+def run_batch(ranks, *arguments, timeout=600):
+    """What pvbatch says on that many ranks while it runs a script. It must end by itself."""
+    command = [*MPI, str(ranks), os.environ["BRAINSHIFT_PVBATCH"], *arguments]
+    # A rank that has no more memory must not be served by what it gave back, nor by the 64 MB of
+    # addresses that each thread gets for an arena of its own and leaves behind when it ends.
+    environment = {**os.environ, "MALLOC_MMAP_THRESHOLD_": str(1 << 20), "MALLOC_ARENA_MAX": "1"}
+    ended = subprocess.run(
+        command, text=True, capture_output=True, timeout=timeout, env=environment)
+    said = ended.stdout + ended.stderr
+    assert ended.returncode == 0, f"pvbatch ended with {ended.returncode}: {said}"
+    return said
+
+
 def batch(ranks, folder, script=__file__, expected=()):
     """What pvbatch answers on that many ranks, and what it says. The script is a module like this
     one; it reports errors that match the expected expressions, each once."""
     os.makedirs(folder, exist_ok=True)
     name = scratch(f"ranks{ranks}.npz")
-    command = [*MPI, str(ranks), os.environ["BRAINSHIFT_PVBATCH"], script, name, folder]
-    # Memory that was given back must not serve a rank that has no more.
-    environment = {**os.environ, "MALLOC_MMAP_THRESHOLD_": str(1 << 20)}
-    ended = subprocess.run(command, text=True, capture_output=True, timeout=600, env=environment)
-    said = ended.stdout + ended.stderr
-    assert ended.returncode == 0, f"pvbatch ended with {ended.returncode}: {said}"
+    said = run_batch(ranks, script, name, folder)
     errors = [line for line in said.splitlines()
               if "ERR|" in line and "No plugin loaded yet" not in line]  # it was loaded already
     for expression in expected:
@@ -490,7 +498,11 @@ def answers_of_batch(ranks, folder):
     return found
 
 
-if __name__ == "__main__":
+def load_plugin_on_ranks():
     simple.LoadPlugin(os.environ["BRAINSHIFT_PLUGIN"], remote=False, ns=simple.__dict__)
     simple.LoadPlugin(os.environ["BRAINSHIFT_PLUGIN"], remote=True, ns=simple.__dict__)
+
+
+if __name__ == "__main__":
+    load_plugin_on_ranks()
     numpy.savez(sys.argv[1], **answers(sys.argv[2]))

@@ -74,6 +74,32 @@ TEST(HostMemory, KnowsTheLimitOfTheProcess)
     hostMemoryProblem("It", 5.0 * GB), { "It needs 5 GB of memory, and ", " GB are left; close" });
 }
 
+// Processes of one machine take memory at once, so what each finds free is there for only one.
+TEST(HostMemory, ProcessesOfOneMachineShareWhatIsFree)
+{
+  constexpr long long Here = 7;
+  constexpr long long Elsewhere = 8;
+  const std::vector<MemoryNeed> needs{ { Here, 3.0 * GB }, { Elsewhere, 9.0 * GB },
+    { Here, 2.0 * GB } };
+  EXPECT_EQ(sharedMemoryProblem("It", needs, 0, 5.0 * GB), "");
+  EXPECT_EQ(sharedMemoryProblem("It", needs, 1, 9.0 * GB), "");
+  expectSays(sharedMemoryProblem("It", needs, 0, 4.0 * GB),
+    { "It needs 3 GB of memory, together with other ranks of its machine 5 GB, and 4 GB are "
+      "left" });
+  expectSays(sharedMemoryProblem("It", needs, 2, 4.0 * GB), { "It needs 2 GB of memory" });
+  expectSays(sharedMemoryProblem("It", needs, 1, 4.0 * GB), { "machine 9 GB, and 4 GB are left" });
+  EXPECT_EQ(sharedMemoryProblem("It", { { Here, 1e6 }, { Here, 1e6 } }, 0, 0.0), "")
+    << "too little";
+}
+
+TEST(HostMemory, AMachineHasOneNumber)
+{
+  EXPECT_NE(machineNumber(), 0);
+  EXPECT_EQ(machineNumber(), machineNumber());
+  const LittleMemory little(1e6);
+  EXPECT_GT(freeMachineMemory(), 1e6) << "whatever this process may take";
+}
+
 TEST(HostMemory, ABakeAsksForItsField)
 {
   vtkNew<vtkFreeFormDeformation> deform;

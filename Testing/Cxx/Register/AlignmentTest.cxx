@@ -141,6 +141,30 @@ TEST(Alignment, AFinerLevelBeginsWhereTheCoarserEnded)
   EXPECT_LT(apart(alignment.motion(), there), 2.0);
 }
 
+// A caller may stop at any step. What it gets is never worse than the start, and its figures belong
+// to it, also while another of several positions is searched.
+TEST(Alignment, SeveralStartsKeepTheBestAtEachStep)
+{
+  const RegisteredPair pair = pairMovedBy(awayBy(4.0, 5.0));
+  AlignmentSettings settings;
+  settings.levelsMm = { 8.0 };
+  settings.mostRounds = 1;
+  settings.starts = 4;
+  Alignment alignment(pair, nullptr, settings);
+  double last = Alignment(pair, nullptr, settings).information();
+  while (!alignment.progress().isFinished)
+  {
+    const double reported = alignment.step().information;
+    Alignment again(pair, nullptr, settings);
+    const RigidPose motion = alignment.motion();
+    again.moveReference(motion.rotation, motion.translation);
+    EXPECT_NEAR(again.information(), reported, 1e-6) << alignment.progress().steps;
+    EXPECT_GE(reported, last - 1e-9) << alignment.progress().steps;
+    last = reported;
+  }
+  EXPECT_GT(alignment.progress().steps, 20) << "of more than one start";
+}
+
 // The volume is compared as it is bent: unbent, the same search ends elsewhere.
 TEST(Alignment, ComparesTheVolumeAsItIsBent)
 {

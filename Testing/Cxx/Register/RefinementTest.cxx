@@ -297,6 +297,17 @@ TEST(Refinement, AMaskHoldsWhatLiesOutside)
     glm::distance(map.deformedFromRest(centre), PointMap(truth).deformedFromRest(centre)), 0.7);
 }
 
+// The caller refuses it.
+TEST(Refinement, AValueThatOverflowsMovesNothingAndIsSeenInTheCost)
+{
+  RegisteredPair pair = pairBentBy(bulge(smallGrid(), 5.0), 1.0);
+  pair.reference.values[pair.reference.values.size() / 2] = 1e37f;
+  Refinement refinement(pair, still(), {});
+  run(refinement);
+  EXPECT_FALSE(std::isfinite(refinement.progress().cost));
+  EXPECT_EQ(refinement.lattice().displacements, still().displacements);
+}
+
 TEST(Refinement, MemoryGrowsWithTheFinestLevel)
 {
   Grid grid = smallGrid(200);

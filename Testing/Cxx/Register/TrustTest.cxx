@@ -133,6 +133,82 @@ TEST(Trust, TooLittleIsNotChecked)
   EXPECT_TRUE(says(found, "too little was compared"));
 }
 
+// Nothing moves a flat reference, so all searches end where they begin.
+TEST(Trust, AFlatReferenceIsNotChecked)
+{
+  RegisteredPair pair = pairOf(same);
+  pair.inside = ball(smallGrid(), middle(smallGrid()), 24.0);
+  const Mask flat = ball(smallGrid(), middle(smallGrid()), 44.0);
+  for (std::size_t i = 0; i < flat.inside.size(); ++i)
+  {
+    pair.reference.values[i] = flat.inside[i] ? 120.0f : pair.reference.values[i];
+  }
+  const Verdict found = verdict(pair, still());
+  EXPECT_EQ(found.trust, Trust::Unchecked);
+  EXPECT_TRUE(says(found, "too little was compared"));
+}
+
+TEST(Trust, AValueThatOverflowsIsNotChecked)
+{
+  RegisteredPair pair = pairOf(same);
+  pair.reference.values[pair.reference.values.size() / 2] = 1e37f;
+  EXPECT_EQ(verdict(pair, still()).trust, Trust::Unchecked);
+}
+
+namespace
+{
+std::size_t LargestGrid = 0; // points
+
+// A metric that notes the grids which it is made for.
+template <int Number>
+const Metric* noting(const Metric* metric)
+{
+  static const Metric* original = metric;
+  static const Metric notes{ metric->support, metric->bytesPerPoint,
+    [](LevelVolumes level, const Lattice& lattice) {
+      LargestGrid = std::max(LargestGrid, level.rest.grid.count());
+      return original->make(std::move(level), lattice);
+    } };
+  return &notes;
+}
+}
+
+// Few samples make the checks finer: near what counts, not everywhere.
+TEST(Trust, ASmallMaskTakesLittleMemory)
+{
+  Grid grid = smallGrid(80);
+  grid.spacing = glm::dvec3(1.0);
+  const auto folds = [&](const glm::dvec3& at) { return tissue(1.5 * at); };
+  RegisteredPair pair;
+  pair.rest = filled(grid, folds);
+  pair.reference = filled(grid, [&](const glm::dvec3& at) { return 300.0 - folds(at); });
+  pair.inside = ball(grid, middle(grid), 12.0); // 7 ml
+  RefinementPlan noted = plan();
+  noted.check.halves.metric = noting<0>(noted.check.halves.metric);
+  noted.check.other.metric = noting<1>(noted.check.other.metric);
+  const Lattice lattice = makeLattice(withDimensions(grid, { 9, 9, 9 }), KernelCatmullRom);
+  Verification checks(pair, lattice, noted);
+  while (checks.step())
+  {
+  }
+  EXPECT_TRUE(checks.figures().halvesMm);
+  EXPECT_TRUE(checks.figures().otherMm);
+  EXPECT_LT(LargestGrid, 130000u) << "all of it has " << grid.count();
+}
+
+TEST(Trust, ALargeVolumeIsCheckedOnFewerPoints)
+{
+  Grid grid;
+  grid.dimensions = { 512, 512, 512 };
+  grid.spacing = glm::dvec3(10.0); // micrometres that were taken for millimetres
+  const RefinementLevel& asked = plan().check.halves;
+  const Grid taken = coarseGrid(grid, withinMemory(asked, grid).spacingMm);
+  EXPECT_LE(taken.count(), 4000000u);
+  EXPECT_GT(taken.count(), 3000000u);
+  EXPECT_LT(Verification::bytes(grid, grid, {}, plan()), 3e9) << "2.1 GB of them are smoothed";
+  EXPECT_EQ(withinMemory(asked, smallGrid()).spacingMm, asked.spacingMm);
+}
+
 TEST(Trust, OneFigureBeyondItsLimitIsDoubtfulAndTwoFail)
 {
   CheckPlan limits;
@@ -224,6 +300,12 @@ TEST(Orientations, HaveNames)
   matrix[1][1] = -1.0;
   EXPECT_EQ(orientationText(matrix, glm::dmat3(1.0)),
     "rotated by 180 degrees about the direction (1, 0, 0)");
+  const glm::dmat3 quarter(glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1));
+  EXPECT_EQ(orientationText(quarter, glm::dmat3(1.0)),
+    "rotated by 90 degrees about the direction (0, 0, 1)");
+  const glm::dmat3 leftHanded(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1));
+  EXPECT_EQ(orientationText(quarter, leftHanded),
+    "rotated by 90 degrees about the direction (0, 0, -1)");
   const glm::dmat3 turned(glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1));
   EXPECT_NE(orientationText(turned, glm::dmat3(1.0)).find("mirrored from"), std::string::npos);
 }

@@ -187,6 +187,44 @@ TEST(Ultrasound, SeveralStartsFindWhatOneMisses)
   EXPECT_LT(several, 0.3);
 }
 
+// A caller may stop at any step: what it gets is never worse than the start, and its cost is its own.
+TEST(Ultrasound, SeveralStartsKeepTheBestAtEachStep)
+{
+  RefinementSettings settings = byUltrasound();
+  settings.plan.levels.resize(1);
+  settings.mostSteps = 2;
+  settings.starts = 3;
+  const RegisteredPair pair = speckledPair(7);
+  const Lattice start = displacedBy({ 3.0, 0.0, 0.0 });
+  ComparedRegion region(pair, settings.plan);
+  region.find(pair, start.grid);
+  PyramidLevel level(pair, region, settings.plan.levels.front(), start);
+  while (!level.isPrepared())
+  {
+    level.prepare();
+  }
+  const auto costOf = [&](const Lattice& lattice) {
+    return level.compare(RefinementState(lattice, settings).controls).cost;
+  };
+  Refinement refinement(pair, start, settings);
+  double last = costOf(start);
+  int others = 0; // positions that were searched after the first one
+  while (!refinement.progress().isFinished)
+  {
+    const int taken = refinement.progress().steps;
+    refinement.step();
+    if (refinement.progress().steps > 0)
+    {
+      const double reported = refinement.progress().cost;
+      EXPECT_NEAR(costOf(refinement.lattice()), reported, 1e-5) << refinement.progress().steps;
+      EXPECT_LE(reported, last + 1e-9) << refinement.progress().steps;
+      last = reported;
+    }
+    others += taken > 6 && refinement.progress().steps > taken ? 1 : 0;
+  }
+  EXPECT_GT(others, 0) << "else the test proves nothing";
+}
+
 TEST(Ultrasound, TheVolumeStaysWhereItIsRight)
 {
   for (const unsigned seed : { 1u, 2u })

@@ -294,6 +294,18 @@ def test_voxels_without_a_value_do_not_count():
             assert found.compared < 0.5 and aligned.compared < 0.5, (found, aligned)
 
 
+def test_a_fill_value_does_not_count():
+    voxels = tissue(*places()).astype(numpy.float32)
+    voxels[20:23, 20:23, 20:23] = 9.96921e36  # that of netCDF, finite
+    bent = simple.FreeFormDeformation(Input=rest_volume())
+    compare = simple.CompareVolumes(Input=bent, Reference=volume(voxels, spacing=SPACING))
+    found = brainshift.refine(bent, compare)
+    assert numpy.isfinite(found.disagreement) and found.disagreement_before < 0.05, found
+    assert found.mean_change < 0.2 and found.trust == "good", found
+    aligned = brainshift.align(compare)
+    assert aligned.shift < 0.5 and aligned.turn < 0.5, aligned
+
+
 def test_what_the_cavity_covers_is_no_overlap():
     rest = rest_volume()
     left = numpy.ones((SIDE,) * 3, numpy.uint8)
@@ -456,6 +468,30 @@ def test_what_bone_holds_without_a_mask_is_brought_and_said():
     assert any("matched better elsewhere" in reason for reason in found.warnings), found.warnings
 
 
+def test_a_stop_after_the_checks_keeps_what_they_checked():
+    sunk, seen = SunkBrain(), []
+
+    def refined(callback):
+        bent = simple.FreeFormDeformation(Input=sunk.head)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found = brainshift.refine(bent, sunk.reference, callback=callback, keep_failed=True)
+        return found, numpy.array(found.filter.ControlPoints)
+
+    def three_steps_on(at):
+        seen.append((at.steps, at.done))
+        return sum(done > 0.8 for _, done in seen) < 3  # where the first checks end
+    found, points = refined(three_steps_on)
+    last = max(steps for steps, done in seen if done < 0.8)
+    at_last, expected = refined(lambda at: at.steps < last)
+    assert found.steps == last + 3 and at_last.steps == last, (found, at_last)
+    assert numpy.array_equal(points, expected), numpy.abs(points - expected).max()
+    assert found.disagreement == at_last.disagreement, (found, at_last)
+    assert found.finished and found.trust in ("doubtful", "failed"), found
+    assert any("match better elsewhere" in reason for reason in found.warnings), found.warnings
+    assert at_last.trust == "unchecked" and not at_last.finished, at_last
+
+
 def test_landmarks_judge_a_refinement():
     rest = rest_volume()
     bent, truth = simple.FreeFormDeformation(Input=rest), known_bend(rest)
@@ -484,6 +520,10 @@ def test_landmarks_pair_by_name():
     assert found.names == ["a", "c"] and found.unpaired == ["b", "d"], found.names
     assert numpy.allclose(found.errors, (3, 4)), found.errors
     assert "2 without a partner" in repr(found), found
+    some = brainshift.tre(bent, places._replace(labels=["a", "", "c"]),
+                          targets._replace(labels=["c", "a", ""]))
+    assert some.names == ["a", "c"] and some.unpaired == ["point 2 of rest", "point 3 of measured"]
+    assert "2 without a partner" in repr(some), some
     by_order = brainshift.tre(bent, places, targets, by_order=True)
     assert len(by_order.errors) == 3 and by_order.errors[1] > 10, by_order
     for measured, words in ((targets._replace(labels=["x", "y", "z"]), "no name is both in rest"),

@@ -109,6 +109,7 @@ def the_picture_follows():
 def it_is_one_step():
     window.action("Undo")
     assert motion() == tuple(ROTATION + TRANSLATION), motion()
+    assert "no fault" not in said() and "has changed since" in said(), said()
     window.action("Redo")
     assert motion() == kept["found"], motion()
 
@@ -246,6 +247,15 @@ def a_failed_result_changes_nothing():
         compare().ReferenceTranslation = [1.0, 0.0, 0.0]
         hand.wait(100)
         assert not hand.is_visible("BrainShiftAlignKeep"), "kept from another start"
+        compare().ReferenceTranslation = [0.0, 0.0, 0.0]
+    assert hand.click("BrainShiftAlign")
+    window.until(lambda: hand.is_visible("BrainShiftAlignKeep"), "a failed result", 120.0)
+    with window.unrecorded():
+        strokes = list(deformation().Strokes)
+        deformation().Strokes = strokes + list(brainshift.soft((30, 30, 30), (1, 0, 0), 20.0))
+        hand.wait(100)
+        assert not hand.is_visible("BrainShiftAlignKeep"), "kept for another deformation"
+        deformation().Strokes = strokes
         compare().Reference = rest
         simple.Delete(mirrored)
         simple.SetActiveSource(compare())
