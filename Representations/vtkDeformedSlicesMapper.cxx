@@ -15,6 +15,7 @@
 #include "Representations/Tissue/FinestLevel.h"
 #include "Representations/Tissue/ResectionTextures.h"
 #include "Representations/Tissue/SceneReference.h"
+#include "Representations/Window/RankParts.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkImageData.h"
@@ -25,7 +26,9 @@
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 using namespace brainshift;
@@ -61,6 +64,7 @@ struct vtkDeformedSlicesMapper::State
   WindowDevices<Device> Devices;
   Counters Count;
   SceneDeformation Deformation;               // of the input
+  std::optional<DrawnPart> Part;              // none: all of it
   std::string Reported;                       // the last problem
   std::set<std::string> Told;                 // remarks
   vtkWeakPointer<vtkVolumeProperty> Property; // drawn with last
@@ -90,12 +94,51 @@ void vtkDeformedSlicesMapper::UpdateDeformation(vtkImageData* image)
 double* vtkDeformedSlicesMapper::GetBounds()
 {
   vtkVolumeMapper::GetBounds();
-  if (auto image = vtkImageData::SafeDownCast(this->GetDataSetInput()))
+  auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
+  const std::optional<DrawnPart>& part = this->Internal->Part;
+  if (image && part)
   {
-    this->UpdateDeformation(image);
-    this->Internal->Deformation.widen(this->Bounds);
+    std::copy_n(part->bounds.data(), 6, this->Bounds);
+  }
+  else if (image)
+  {
+    this->WidenByTissue(image, this->Bounds);
   }
   return this->Bounds;
+}
+
+void vtkDeformedSlicesMapper::WidenByTissue(vtkImageData* image, double bounds[6])
+{
+  this->UpdateDeformation(image);
+  this->Internal->Deformation.widen(bounds);
+}
+
+const Lattice* vtkDeformedSlicesMapper::GetLattice(vtkImageData* image)
+{
+  if (!image)
+  {
+    return nullptr;
+  }
+  this->UpdateDeformation(image);
+  const SceneDeformation& deformation = this->Internal->Deformation;
+  return deformation.deformed ? &deformation.lattice : nullptr;
+}
+
+void vtkDeformedSlicesMapper::SetDrawnPart(const DrawnPart* part)
+{
+  std::optional<DrawnPart>& known = this->Internal->Part;
+  const bool isSame = part ? known && *known == *part : !known;
+  if (!isSame)
+  {
+    known = part ? std::optional(*part) : std::nullopt;
+    this->Modified();
+  }
+}
+
+const double* vtkDeformedSlicesMapper::GetTissueOfAllRanks() const
+{
+  const std::optional<DrawnPart>& part = this->Internal->Part;
+  return part ? part->tissue.data() : nullptr;
 }
 
 void vtkDeformedSlicesMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
@@ -141,8 +184,8 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
   tissue.labels = isLabelMap(image);
   tissue.nearest = tissue.labels || this->Interpolation == Nearest;
-  values.scalars->GetFiniteRange(
-    &tissue.range[0], drawnComponents(tissue.property, values.scalars).scalar);
+  tissue.range = rangeOf(this->Internal->Part, image, values,
+    drawnComponents(tissue.property, values.scalars).scalar);
   const ReferenceVolume reference = readReference(image);
   tissue.compared = reference.voxels &&
     (reference.show == ReferenceShow::Reference ||
@@ -202,37 +245,47 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
   GpuTask& gpu, const DrawnVolume& seen, Device& device, const TissueRequest& tissue)
 {
   State& state = *this->Internal;
+  const DrawnValues whole = state.Part ? wholeValues(*state.Part, tissue.values) : tissue.values;
   SliceScene scene;
   DeviceDeformation::Change change;
   if (!device.Tissue.update(gpu, tissue, scene.tissue) ||
-    !device.Deformation.update(gpu, state.Deformation, tissue.values, scene.field, change))
+    !device.Deformation.update(gpu, state.Deformation, whole, scene.field, change))
   {
     return false;
   }
-  if (!this->UploadReference(gpu, device, tissue, scene))
+  if (!this->UploadReference(gpu, device, tissue, whole, scene))
   {
     gpu.goOnWithout("The reference is not drawn");
     scene.reference = ReferenceScene();
   }
   if (this->ShowEvidence &&
-    !device.Evidence.update(gpu, state.Deformation, tissue.values, scene.evidence))
+    !device.Evidence.update(gpu, state.Deformation, whole, scene.evidence))
   {
     return false;
   }
-  scene.frame = frameOf(seen, tissue.values);
+  scene.frame = frameOf(seen, whole);
   const VolumePlace place{ scene.frame.worldFromTexture, seen.volume->GetMatrix() };
   if (!device.Resected.update(gpu, readResection(this->GetDataSetInput()), place, scene.resection))
   {
     return false;
   }
-  this->PlacePlanes(tissue.values, scene);
+  this->PlacePlanes(whole, scene);
+  scene.voxels = tissue.values.layout.dimensions;
   scene.cubic = this->IsCubic(tissue) && !tissue.nearest;
+  scene.nearest = tissue.nearest || CategoryScalars::areWanted(tissue.property);
   device.Drawn = { scene.planes, scene.frame.worldFromTexture };
-  device.DrawnLayout = tissue.values.layout;
+  device.DrawnLayout = whole.layout;
   state.Property = tissue.property;
   scene.selecting = seen.renderer->GetSelector() != nullptr;
   scene.blended = this->IsTranslucent() && !scene.selecting;
-  this->AddBricks(gpu, seen, device, tissue, scene);
+  if (state.Part) // ranks stream nothing
+  {
+    scene.part = slicePartOf(state.Part->cut, whole, tissue.values, !scene.blended);
+  }
+  else
+  {
+    this->AddBricks(gpu, seen, device, tissue, scene);
+  }
   return device.Drawer.draw(gpu.window, scene, gpu.counters) ||
     gpu.fail("The slices' shader does not compile on this GPU");
 }
@@ -271,8 +324,8 @@ void vtkDeformedSlicesMapper::AddBricks(GpuTask& gpu, const DrawnVolume& seen, D
   }
 }
 
-bool vtkDeformedSlicesMapper::UploadReference(
-  GpuTask& gpu, Device& device, const TissueRequest& tissue, SliceScene& scene)
+bool vtkDeformedSlicesMapper::UploadReference(GpuTask& gpu, Device& device,
+  const TissueRequest& tissue, const DrawnValues& whole, SliceScene& scene)
 {
   if (!tissue.compared)
   {
@@ -287,7 +340,7 @@ bool vtkDeformedSlicesMapper::UploadReference(
   choice.windowMm = this->SimilarityWindow;
   choice.wipePosition = { this->WipePosition[0], this->WipePosition[1], this->WipePosition[2] };
   const double* range = tissue.property->GetRGBTransferFunction()->GetRange();
-  const ComparedVolume volume{ tissue.values.grid, tissue.values.layout, { range[0], range[1] },
+  const ComparedVolume volume{ whole.grid, whole.layout, { range[0], range[1] },
     device.Tissue.stored(),
     valueFromReference(
       reference.voxels, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] }),
@@ -310,18 +363,18 @@ void vtkDeformedSlicesMapper::PlacePlanes(const DrawnValues& values, SliceScene&
   const glm::dvec3 position(this->SlicePosition[0], this->SlicePosition[1], this->SlicePosition[2]);
   scene.planes.position = textureFromWorld(values, position);
   const glm::dvec3 rounding = roundingOf(layout);
-  scene.tissue.volumeLow -= rounding;
-  scene.tissue.volumeHigh += rounding;
+  scene.tissue.volumeLow = layout.low - rounding;
+  scene.tissue.volumeHigh = layout.high + rounding;
   scene.planes.low = glm::min(scene.field.spaceLow, scene.tissue.volumeLow);
   scene.planes.high = glm::max(scene.field.spaceHigh, scene.tissue.volumeHigh);
-  scene.voxels = layout.dimensions;
   scene.crosshair = this->Crosshair;
   scene.opacity = this->Opacity;
   scene.mapsOpacity = this->MapOpacity;
 }
 
 // Tissue is not seen outside the volume, without a value, or where it is transparent. `texture`: in
-// the layout that was drawn, which may be coarser than the voxels.
+// the layout that was drawn, which may be coarser than the voxels, or of a volume of which this rank
+// has a part.
 bool vtkDeformedSlicesMapper::IsSeenAt(const ValueLayout& drawn, const glm::dvec3& texture)
 {
   State& state = *this->Internal;
@@ -333,11 +386,13 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const ValueLayout& drawn, const glm::dvec
     return false;
   }
   const glm::dvec3 place = (texture - drawn.textureOfGridZero) / drawn.textureFromGrid;
-  glm::dvec3 rest = place * layout.textureFromGrid + layout.textureOfGridZero;
+  const Grid& grid = state.Part ? state.Part->whole.grid : values.grid;
+  const glm::dvec3 first = glm::round(grid.gridFromWorld(values.grid.origin));
+  glm::dvec3 rest = (place - first) * layout.textureFromGrid + layout.textureOfGridZero;
   if (state.Deformation.deformed)
   {
-    rest = textureFromWorld(
-      values, state.Deformation.map().restFromDeformed(values.grid.worldFromGrid(place)));
+    rest =
+      textureFromWorld(values, state.Deformation.map().restFromDeformed(grid.worldFromGrid(place)));
   }
   const std::optional<long long> index = nearestValue(layout, rest, roundingOf(layout));
   if (!index)
@@ -351,17 +406,30 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const ValueLayout& drawn, const glm::dvec
   return std::isfinite(value) && !seenThrough;
 }
 
+// On several ranks, each answers for the part of the planes that it draws.
+bool vtkDeformedSlicesMapper::IsOfThisRank(const glm::dvec3& world)
+{
+  const std::optional<DrawnPart>& part = this->Internal->Part;
+  bool inside = true;
+  for (int axis = 0; part && axis < 3; ++axis)
+  {
+    inside = inside && world[axis] >= part->cut[2 * axis] && world[axis] <= part->cut[2 * axis + 1];
+  }
+  return inside;
+}
+
 bool vtkDeformedSlicesMapper::Pick(
   vtkRenderer* renderer, int x, int y, double position[3], double normal[3])
 {
   Device* device = this->Internal->Devices.find(renderer->GetRenderWindow());
-  if (!device || !vtkImageData::SafeDownCast(this->GetDataSetInput()))
+  auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
+  if (!device || !image || image->GetNumberOfPoints() == 0) // another MPI rank draws all of it now
   {
     return false;
   }
   for (const SliceHit& hit : hitsUnderPixel(device->Drawn, renderer, x, y))
   {
-    if (this->IsSeenAt(device->DrawnLayout, hit.texture))
+    if (this->IsOfThisRank(hit.world) && this->IsSeenAt(device->DrawnLayout, hit.texture))
     {
       std::copy_n(&hit.world[0], 3, position);
       std::copy_n(&hit.normal[0], 3, normal);

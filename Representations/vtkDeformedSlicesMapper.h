@@ -29,9 +29,11 @@ class vtkImageData;
 namespace brainshift
 {
 struct Counters;
+struct DrawnPart;
 struct DrawnValues;
 struct DrawnVolume;
 struct GpuTask;
+struct Lattice;
 struct MemoryNeed;
 struct SliceScene;
 struct TissueFacts;
@@ -202,6 +204,14 @@ public:
   double* GetBounds() VTK_SIZEHINT(6) override;
   ///@}
 
+  ///@{
+  /** For several MPI ranks, see vtkDeformedVolumeMapper. */
+  void WidenByTissue(vtkImageData* image, double bounds[6]);
+  const brainshift::Lattice* GetLattice(vtkImageData* image);
+  void SetDrawnPart(const brainshift::DrawnPart* part);
+  const double* GetTissueOfAllRanks() const;
+  ///@}
+
   /**
    * Normals (world) of the sagittal, the coronal and the axial plane, 3 numbers each, pointing
    * towards greater world coordinates. Without an input: the axes of the world.
@@ -253,11 +263,13 @@ private:
   void AddBricks(brainshift::GpuTask& gpu, const brainshift::DrawnVolume& seen, Device& device,
     const brainshift::TissueRequest& tissue, brainshift::SliceScene& scene);
   bool UploadReference(brainshift::GpuTask& gpu, Device& device,
-    const brainshift::TissueRequest& tissue, brainshift::SliceScene& scene);
+    const brainshift::TissueRequest& tissue, const brainshift::DrawnValues& whole,
+    brainshift::SliceScene& scene);
   void Tell(const brainshift::GpuTask& gpu);
   void PlacePlanes(const brainshift::DrawnValues& values, brainshift::SliceScene& scene);
   void UpdateDeformation(vtkImageData* image);
   bool IsSeenAt(const brainshift::ValueLayout& drawn, const glm::dvec3& texture); // deformed frame
+  bool IsOfThisRank(const glm::dvec3& world);
 
   bool ShowSagittal = true;
   bool ShowCoronal = true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/Guard.h"
+#include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Slices/OrientationMarks.h"
+#include "Representations/Window/RankParts.h"
 #include "Representations/Window/SavedPicture.h"
 
 #include "vtkCommand.h"
@@ -219,6 +221,10 @@ void vtkDeformedSlicesRepresentation::SetMapOpacity(bool map)
 
 void vtkDeformedSlicesRepresentation::SetComparison(int comparison)
 {
+  if (comparison != this->GetDeformedSlicesMapper()->GetComparison())
+  {
+    this->MarkModified(); // MPI ranks may need other voxels
+  }
   this->GetDeformedSlicesMapper()->SetComparison(comparison);
 }
 
@@ -244,6 +250,10 @@ void vtkDeformedSlicesRepresentation::SetFullGradient(double fraction)
 
 void vtkDeformedSlicesRepresentation::SetSimilarityWindow(double mm)
 {
+  if (mm != this->GetDeformedSlicesMapper()->GetSimilarityWindow())
+  {
+    this->MarkModified(); // MPI ranks may need other voxels
+  }
   this->GetDeformedSlicesMapper()->SetSimilarityWindow(mm);
 }
 
@@ -345,6 +355,32 @@ int vtkDeformedSlicesRepresentation::ProcessViewRequest(
     }
     return result;
   });
+}
+
+void vtkDeformedSlicesRepresentation::WidenByTissue(vtkImageData* volume, double bounds[6])
+{
+  this->GetDeformedSlicesMapper()->WidenByTissue(volume, bounds);
+}
+
+// A window of local similarity that is around a place of the part is in part beside it.
+std::array<int, 6> vtkDeformedSlicesRepresentation::RestExtent(const brainshift::WholeVolume& whole,
+  vtkImageData* volume, const std::array<double, 6>& part, double haloMm)
+{
+  vtkDeformedSlicesMapper* slices = this->GetDeformedSlicesMapper();
+  const bool hasWindow = slices->GetComparison() == vtkDeformedSlicesMapper::LocalSimilarity &&
+    volume && brainshift::readReference(volume).voxels;
+  const double besideMm = hasWindow ? 0.5 * slices->GetSimilarityWindow() : 0.0;
+  brainshift::Box box = part;
+  for (int side = 0; side < 6; ++side)
+  {
+    box[side] += side % 2 ? besideMm : -besideMm;
+  }
+  return brainshift::restExtent(whole, slices->GetLattice(volume), box, haloMm);
+}
+
+void vtkDeformedSlicesRepresentation::SetDrawnPart(const brainshift::DrawnPart* part)
+{
+  this->GetDeformedSlicesMapper()->SetDrawnPart(part);
 }
 
 void vtkDeformedSlicesRepresentation::PrintSelf(ostream& os, vtkIndent indent)

@@ -82,6 +82,11 @@ protected:
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
 
+  void WidenByTissue(vtkImageData* volume, double bounds[6]) override;
+  std::array<int, 6> RestExtent(const brainshift::WholeVolume& whole, vtkImageData* volume,
+    const std::array<double, 6>& part, double haloMm) override;
+  void SetDrawnPart(const brainshift::DrawnPart* part) override;
+
 private:
   vtkDeformedSlicesRepresentation(const vtkDeformedSlicesRepresentation&) = delete;
   void operator=(const vtkDeformedSlicesRepresentation&) = delete;

@@ -10,7 +10,6 @@
 #include "Representations/Scene/Remarks.h"
 #include "Representations/Window/RankParts.h"
 
-#include "vtkCellData.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
@@ -36,31 +35,6 @@ namespace brainshift
 
 /// Gives the fallback what a mapper draws, and how.
 void drawInSoftware(vtkVolumeMapper* mapper, vtkSmartVolumeMapper* fallback);
-
-namespace
-{
-// Of the whole volume, also if this process has a part of it. `component`: -1 for the magnitude.
-glm::dvec2 rangeOf(const std::optional<DrawnPart>& part, vtkImageData* image,
-  const DrawnValues& values, int component)
-{
-  glm::dvec2 range;
-  values.scalars->GetFiniteRange(&range[0], component);
-  const char* name = values.scalars->GetName();
-  if (part && name)
-  {
-    const bool ofCells = image->GetCellData()->GetArray(name) == values.scalars;
-    const auto known = part->ranges.find({ ofCells, name });
-    if (known != part->ranges.end())
-    {
-      const int last = static_cast<int>(known->second.size()) - 1; // the magnitude
-      const std::array<double, 2>& whole =
-        known->second[component < 0 ? last : std::min(component, last)];
-      range = glm::dvec2(whole[0], whole[1]);
-    }
-  }
-  return range;
-}
-}
 
 void drawInSoftware(vtkVolumeMapper* mapper, vtkSmartVolumeMapper* fallback)
 {
@@ -176,9 +150,7 @@ const Lattice* vtkDeformedVolumeMapper::GetLattice(vtkImageData* image)
 void vtkDeformedVolumeMapper::SetDrawnPart(const DrawnPart* part)
 {
   std::optional<DrawnPart>& known = this->Internal->Part;
-  const bool isSame = part ? known && known->bounds == part->bounds && known->cut == part->cut &&
-      known->whole == part->whole && known->tissue == part->tissue && known->ranges == part->ranges
-                           : !known;
+  const bool isSame = part ? known && *known == *part : !known;
   if (!isSame)
   {
     known = part ? std::optional(*part) : std::nullopt;
@@ -281,7 +253,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   if (state.Part)
   {
     request.part.assign(state.Part->cut.begin(), state.Part->cut.end());
-    const Extent& whole = state.Part->whole;
+    const Extent& whole = state.Part->whole.extent;
     const int* extent = image->GetExtent();
     const glm::dvec3 first(extent[0], extent[2], extent[4]);
     request.wholeLow = glm::dvec3(whole[0], whole[2], whole[4]) - first;
@@ -329,7 +301,7 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   tissue.wholePoints = values.grid.dimensions;
   if (const std::optional<DrawnPart>& part = this->Internal->Part)
   {
-    const Extent& whole = part->whole;
+    const Extent& whole = part->whole.extent;
     tissue.wholePoints =
       glm::ivec3(whole[1], whole[3], whole[5]) - glm::ivec3(whole[0], whole[2], whole[4]) + 1;
   }

@@ -221,6 +221,11 @@ std::string vtkDeformedVolumeRepresentation::WhyWhole() const
   return blends ? "" : "its blend mode is neither Composite nor Isosurface";
 }
 
+std::string vtkDeformedVolumeRepresentation::WhyDataIsWhole() const
+{
+  return this->ComparesInColors() ? "two colours compare it with a reference" : "";
+}
+
 void vtkDeformedVolumeRepresentation::WidenByTissue(vtkImageData* volume, double bounds[6])
 {
   this->GetDeformedVolumeMapper()->WidenByTissue(volume, bounds);

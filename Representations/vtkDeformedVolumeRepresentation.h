@@ -108,6 +108,7 @@ protected:
   ~vtkDeformedVolumeRepresentation() override;
 
   std::string WhyWhole() const override;
+  std::string WhyDataIsWhole() const override;
   void WidenByTissue(vtkImageData* volume, double bounds[6]) override;
   std::array<int, 6> RestExtent(const brainshift::WholeVolume& whole, vtkImageData* volume,
     const std::array<double, 6>& part, double haloMm) override;

@@ -2,6 +2,7 @@
 #include "vtkVolumeOrder.h"
 
 #include "vtkCamera.h"
+#include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
@@ -20,8 +21,12 @@ namespace
 const double* boundsOf(vtkProp* prop)
 {
   auto* volume = vtkVolume::SafeDownCast(prop);
-  auto* mapper = volume ? vtkDeformedVolumeMapper::SafeDownCast(volume->GetMapper()) : nullptr;
-  const double* all = mapper ? mapper->GetTissueOfAllRanks() : nullptr;
+  vtkAbstractVolumeMapper* mapper = volume ? volume->GetMapper() : nullptr;
+  auto* bent = vtkDeformedVolumeMapper::SafeDownCast(mapper);
+  auto* slices = vtkDeformedSlicesMapper::SafeDownCast(mapper);
+  const double* all = bent ? bent->GetTissueOfAllRanks()
+    : slices               ? slices->GetTissueOfAllRanks()
+                           : nullptr;
   return all ? all : prop->GetBounds();
 }
 }

@@ -398,11 +398,10 @@ std::string vtkWholeVolumeRepresentation::WhyBentUnlike(const Group& group)
 // Why this rank cannot draw a part; empty: it can.
 std::string vtkWholeVolumeRepresentation::WhyPartIsWhole()
 {
-  return !this->MayDrawPart    ? this->WhyDrawnWhole
-    : !this->Part              ? "a rank has no voxels of it"
-    : this->PartsRefused       ? "a rank had no memory for its part"
-    : this->ComparesInColors() ? "two colours compare it with a reference"
-                               : "";
+  return !this->MayDrawPart ? this->WhyDrawnWhole
+    : !this->Part           ? "a rank has no voxels of it"
+    : this->PartsRefused    ? "a rank had no memory for its part"
+                            : this->WhyDataIsWhole();
 }
 
 void vtkWholeVolumeRepresentation::WarnOfFirstRank(const std::string& reason)
@@ -502,7 +501,7 @@ vtkWholeVolumeRepresentation::Taken vtkWholeVolumeRepresentation::Measure(
   std::copy_n(this->WholeExtent, 6, all.begin());
   Taken taken;
   taken.whole = this->Shared->wholeOf(ranks, this->Part, all);
-  taken.part.whole = taken.whole.extent;
+  taken.part.whole = taken.whole;
   brainshift::Box tissue = cornersOf(taken.whole.grid);
   if (drawsParts && problem.empty())
   {
@@ -583,12 +582,6 @@ void vtkWholeVolumeRepresentation::WantVoxelsOf(
   {
     this->Wanted = this->RestExtent(whole, this->Part, part, this->RankHalo);
   }
-}
-
-std::array<int, 6> vtkWholeVolumeRepresentation::RestExtent(const brainshift::WholeVolume& whole,
-  vtkImageData*, const std::array<double, 6>& part, double haloMm)
-{
-  return brainshift::restExtent(whole, nullptr, part, haloMm);
 }
 
 void vtkWholeVolumeRepresentation::SetVisibility(bool visible)

@@ -87,16 +87,19 @@ private:
   virtual bool ComparesInColors() const = 0;
 
   /** Why parts of the volume cannot be drawn by themselves; empty: they can. */
-  virtual std::string WhyWhole() const { return "it is shown as slices"; }
+  virtual std::string WhyWhole() const { return {}; }
+  /** The same, where the data of this process gives the reason. */
+  virtual std::string WhyDataIsWhole() const { return {}; }
   /** Widens bounds (mm; x, y, z, least and greatest each) by where the volume's tissue can go. */
-  virtual void WidenByTissue(vtkImageData*, double[6]) {}
+  virtual void WidenByTissue(vtkImageData*, double[6]) = 0;
   /** The voxels whose tissue can come into a part of the deformed frame. */
-  virtual std::array<int, 6> RestExtent(
-    const brainshift::WholeVolume&, vtkImageData*, const std::array<double, 6>&, double haloMm);
-  /** Adds the visible voxels of a part of the volume to those of a view. */
+  virtual std::array<int, 6> RestExtent(const brainshift::WholeVolume&, vtkImageData*,
+    const std::array<double, 6>&, double haloMm) = 0;
+  /** Adds the visible voxels of a part of the volume to those of a view. None (default): ranks that
+   * draw nothing else get boxes of one size. */
   virtual void CountVisible(vtkImageData*, brainshift::TissueCounts&) {}
   /** Draws only a part of the deformed frame. Null: all of it. */
-  virtual void SetDrawnPart(const brainshift::DrawnPart*) {}
+  virtual void SetDrawnPart(const brainshift::DrawnPart*) = 0;
 
   using Group = std::vector<vtkWholeVolumeRepresentation*>; // what a view shows, one or more
   struct Taken;

@@ -35,6 +35,7 @@
 #include "shader_normals_frag.h"
 #include "shader_occlusion_frag.h"
 #include "shader_outline_vert.h"
+#include "shader_part.h"
 #include "shader_pointwise.h"
 #include "shader_presence_frag.h"
 #include "shader_projection_frag.h"
@@ -301,8 +302,9 @@ ShaderSource slicesSource(const SlicesVariant& variant)
   return { assemble({ shader_slices_vert }), "",
     assemble(
       { Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment, shader_tissue,
-        variant.streamed ? std::string(shader_streamed) : "", shader_resection, shader_components, shader_evidence, shader_cubic, shader_cavity,
-        shader_crosshair, shader_comparison, shader_similarity, shader_slices_frag }) };
+        variant.streamed ? std::string(shader_streamed) : "", shader_resection, shader_components,
+        shader_evidence, shader_cubic, shader_cavity, shader_part, shader_crosshair,
+        shader_comparison, shader_similarity, shader_slices_frag }) };
 }
 
 ShaderSource sliceBricksSource(bool deformed)

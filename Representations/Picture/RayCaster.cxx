@@ -138,8 +138,6 @@ void setSkippingUniforms(Program& program, const SceneSkipping& skipping, vtkTex
   program.set("brickOfTextureZero", brickOfTextureZero(skipping));
 }
 
-constexpr int PartSides = 6; // of a box
-
 void setCutUniforms(Program& program, const SceneCuts& cuts)
 {
   program.set("spaceLow", glm::vec3(cuts.spaceLow));
@@ -150,10 +148,7 @@ void setCutUniforms(Program& program, const SceneCuts& cuts)
   {
     program.get()->SetUniform4fv("clipPlanes", planes, cuts.clipPlanes.data());
   }
-  std::array<float, 4 * PartSides> part{};
-  std::copy(cuts.partPlanes.begin(), cuts.partPlanes.end(), part.begin());
-  program.set("partCount", static_cast<int>(cuts.partPlanes.size() / 4));
-  program.get()->SetUniform4fv("partPlanes", PartSides, part.data());
+  setPartPlanes(program, cuts.partPlanes);
   if (cuts.regions)
   {
     program.set("regionLow", glm::vec3(cuts.regionLow));

@@ -8,6 +8,9 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
+#include <array>
+
 namespace brainshift
 {
 void setTissueUniforms(Program& program, const SceneTissue& tissue, int stepDoublings)
@@ -123,6 +126,15 @@ void setEvidenceUniforms(Program& program, const SceneEvidence& evidence)
     program.set("evidenceTints", EvidenceTints);
     program.set("stripesFromTexture", glm::vec3(evidence.stripesFromTexture));
   }
+}
+
+void setPartPlanes(Program& program, const std::vector<float>& planes)
+{
+  constexpr int sidesOfBox = 6;
+  std::array<float, 4 * sidesOfBox> part{};
+  std::copy(planes.begin(), planes.end(), part.begin());
+  program.set("partCount", static_cast<int>(planes.size() / 4));
+  program.get()->SetUniform4fv("partPlanes", sidesOfBox, part.data());
 }
 
 void setColoringUniforms(Program& program, const SceneColoring& coloring)

@@ -267,6 +267,9 @@ void setEvidenceUniforms(Program& program, const SceneEvidence& evidence);
 /// What Shaders/Tissue/resection.glsl needs. Nothing of a mask that is not there.
 void setResectionUniforms(Program& program, const SceneResection& resection);
 
+/// The sides of the part that this rank draws, as SceneCuts::partPlanes; may be empty.
+void setPartPlanes(Program& program, const std::vector<float>& planes);
+
 /// What Shaders/Tissue/components.glsl needs.
 void setColoringUniforms(Program& program, const SceneColoring& coloring);
 }

@@ -19,6 +19,7 @@ ValueLayout layoutOf(const glm::ivec3& points, bool cells)
   ValueLayout layout;
   layout.voxels = cells ? glm::max(points - 1, glm::ivec3(1)) : points;
   layout.dimensions = layout.voxels;
+  layout.ofCells = cells;
   const glm::dvec3 values(layout.dimensions);
   layout.textureFromGrid = 1.0 / values;
   layout.textureOfGridZero = cells ? glm::dvec3(0.0) : 0.5 / values;
@@ -56,8 +57,9 @@ std::optional<long long> nearestValue(
     return {};
   }
   const glm::ivec3& side = layout.dimensions;
-  const glm::ivec3 value =
-    glm::clamp(glm::ivec3(glm::floor(texture * glm::dvec3(side))), glm::ivec3(0), side - 1);
+  constexpr double rounding = 1e-6; // of a value
+  const glm::dvec3 place = glm::floor(texture * glm::dvec3(side) + rounding);
+  const glm::ivec3 value = glm::clamp(glm::ivec3(place), glm::ivec3(0), side - 1);
   return (static_cast<long long>(value.z) * side.y + value.y) * side.x + value.x;
 }
 

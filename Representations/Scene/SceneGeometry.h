@@ -30,6 +30,7 @@ struct ValueLayout
   glm::dvec3 textureOfGridZero{ 0.0 };
   glm::dvec3 low{ 0.0 }; ///< The volume's box, texture coordinates.
   glm::dvec3 high{ 1.0 };
+  bool ofCells = false;
 
   bool isWhole() const { return this->perTexel == glm::ivec3(1); }
 };
@@ -47,7 +48,8 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ValueLayout coarser(
 glm::dvec3 roundingOf(const ValueLayout& layout);
 
 /// Number of the value nearest to a place (texture coordinates). None farther than `margin` outside
-/// the volume's box (texture coordinates along each axis).
+/// the volume's box (texture coordinates along each axis). A place between two values belongs to the
+/// later one, whichever part of a volume the layout is of.
 std::optional<long long> nearestValue(
   const ValueLayout& layout, const glm::dvec3& texture, const glm::dvec3& margin);
 

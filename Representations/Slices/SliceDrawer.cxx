@@ -149,6 +149,7 @@ void setSliceUniforms(Program& program, const SliceScene& scene, double scale)
   setColoringUniforms(program, scene.tissue.coloring);
   setEvidenceUniforms(program, scene.evidence);
   setResectionUniforms(program, scene.resection);
+  setPartUniforms(program, scene.part, scene.nearest);
   program.set("clipFromTexture", glm::mat4(clipFromTexture(scene.frame)));
   program.set("voxels", glm::vec3(scene.voxels));
   program.set("cubic", scene.cubic ? 1 : 0);
@@ -160,6 +161,55 @@ void setSliceUniforms(Program& program, const SliceScene& scene, double scale)
   program.set("crosshairColors", scene.crosshairColors);
   program.set("screenScale", static_cast<float>(scale));
 }
+
+// Other pixels than those of the part are left out here, as far as they form a rectangle. The
+// rectangle that is drawn stays the same, or its places would be rounded differently.
+class PartScissor
+{
+public:
+  PartScissor(vtkOpenGLState* state, const SliceScene& scene)
+    : State(state)
+    , Scene(scene)
+    , Test(state, GL_SCISSOR_TEST)
+  {
+    state->vtkglGetIntegerv(GL_VIEWPORT, this->Viewport.data());
+    state->vtkglGetIntegerv(GL_SCISSOR_BOX, this->Scissor.data());
+    this->Scissor = state->GetEnumState(GL_SCISSOR_TEST) ? this->Scissor : this->Viewport;
+  }
+
+  // Whether anything of a rectangle is left.
+  bool leave(const SliceQuad& quad)
+  {
+    if (this->Scene.part.planes.empty())
+    {
+      return true;
+    }
+    const PixelBox drawn = overlap(pixelsOf(quad, this->Scene.part, clipFromTexture(this->Scene.frame),
+                                     boxOf(this->Viewport)),
+      boxOf(this->Scissor));
+    if (!drawn.empty())
+    {
+      this->State->vtkglEnable(GL_SCISSOR_TEST);
+      this->State->vtkglScissor(drawn.low.x, drawn.low.y, drawn.size().x, drawn.size().y);
+    }
+    return !drawn.empty();
+  }
+
+private:
+  using Rectangle = std::array<int, 4>; // first pixel, size
+
+  static PixelBox boxOf(const Rectangle& rectangle)
+  {
+    const glm::ivec2 low(rectangle[0], rectangle[1]);
+    return { low, low + glm::ivec2(rectangle[2], rectangle[3]) };
+  }
+
+  vtkOpenGLState* State;
+  const SliceScene& Scene;
+  vtkOpenGLState::ScopedglEnableDisable Test;
+  Rectangle Viewport{};
+  Rectangle Scissor{};
+};
 }
 
 bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, Counters& counters)
@@ -182,12 +232,17 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
   {
     vtkOpenGLState* state = window->GetState();
     const SceneScope scope(state, scene.blended);
+    PartScissor part(state, scene);
     state->vtkglDepthMask(scene.blended ? GL_FALSE : GL_TRUE);
     const std::vector<SliceQuad> quads = scene.blended
       ? quadsBackToFront(scene.planes, clipFromTexture(scene.frame))
       : wholeQuads(scene.planes);
     for (const SliceQuad& quad : quads)
     {
+      if (!part.leave(quad))
+      {
+        continue;
+      }
       program.set("quadAxis", quad.axis);
       if (variant.compared)
       {

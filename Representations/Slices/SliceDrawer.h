@@ -7,6 +7,7 @@
 #include "Representations/Gpu/Program.h"
 #include "Representations/Scene/VolumeChoices.h"
 #include "Representations/Slices/SliceGeometry.h"
+#include "Representations/Slices/SlicePart.h"
 #include "Representations/Tissue/CavityTexture.h"
 
 #include <map>
@@ -112,11 +113,13 @@ struct SliceScene
   SceneTissue tissue;
   SceneBricks bricks;
   SlicePlanes planes;
+  SlicePart part;
   ReferenceScene reference;
   SceneEvidence evidence;
   SceneResection resection;
-  glm::ivec3 voxels{ 1 };            ///< Of the scalars, a side.
+  glm::ivec3 voxels{ 1 };            ///< Of the texture of scalars, a side.
   bool cubic = false;                ///< Cubic filter; else as the texture of scalars filters.
+  bool nearest = false;              ///< The textures of voxels do not filter.
   double opacity = 1.0;              ///< Of everything, 0 to 1.
   bool mapsOpacity = false;          ///< The opacity map counts, too.
   bool blended = false;              ///< Blended from back to front, without writing depth.

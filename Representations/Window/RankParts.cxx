@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Window/RankParts.h"
 
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -122,6 +126,35 @@ PositionRange inGrid(const Grid& grid, const Box& box)
   }
   return range;
 }
+}
+
+glm::dvec2 rangeOf(const std::optional<DrawnPart>& part, vtkImageData* image,
+  const DrawnValues& values, int component)
+{
+  glm::dvec2 range;
+  values.scalars->GetFiniteRange(&range[0], component);
+  const char* name = values.scalars->GetName();
+  if (part && name)
+  {
+    const bool ofCells = image->GetCellData()->GetArray(name) == values.scalars;
+    const auto known = part->ranges.find({ ofCells, name });
+    if (known != part->ranges.end())
+    {
+      const int last = static_cast<int>(known->second.size()) - 1; // the magnitude
+      const std::array<double, 2>& whole =
+        known->second[component < 0 ? last : std::min(component, last)];
+      range = glm::dvec2(whole[0], whole[1]);
+    }
+  }
+  return range;
+}
+
+DrawnValues wholeValues(const DrawnPart& part, const DrawnValues& values)
+{
+  DrawnValues whole;
+  whole.grid = part.whole.grid;
+  whole.layout = layoutOf(whole.grid.dimensions, values.layout.ofCells);
+  return whole;
 }
 
 void TissueCounts::add(const glm::dvec3& place, long long voxels)

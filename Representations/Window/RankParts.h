@@ -9,9 +9,12 @@
 
 #include "Common/ImageParts.h"
 #include "Common/RankAgreement.h"
+#include "Common/SharedVolume.h"
 #include "Filters/Attached/RestExtent.h"
+#include "Representations/Scene/SceneGeometry.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
+#include <optional>
 #include <vector>
 
 namespace brainshift
@@ -19,12 +22,26 @@ namespace brainshift
 /// What one rank draws of the deformed frame.
 struct DrawnPart
 {
-  Box bounds{};   ///< mm
-  Box cut{};      ///< mm: between these sides, see withoutOuterSides.
-  Extent whole{}; ///< of the volume of which the rank has a part
-  Box tissue{};   ///< mm: where the tissue of all ranks can be
+  Box bounds{};      ///< mm
+  Box cut{};         ///< mm: between these sides, see withoutOuterSides.
+  WholeVolume whole; ///< of which the rank has a part
+  Box tissue{};      ///< mm: where the tissue of all ranks can be
   WholeRanges ranges;
+
+  bool operator==(const DrawnPart& o) const
+  {
+    return this->bounds == o.bounds && this->cut == o.cut && this->whole.grid == o.whole.grid &&
+      this->whole.extent == o.whole.extent && this->tissue == o.tissue && this->ranges == o.ranges;
+  }
 };
+
+/// The range of a volume's drawn values: of the whole volume, also if `image` is a part of it.
+/// `component`: -1 for the magnitude.
+glm::dvec2 rangeOf(const std::optional<DrawnPart>& part, vtkImageData* image,
+  const DrawnValues& values, int component);
+
+/// The whole volume whose `values` are of a part: its grid and layout, without voxels.
+DrawnValues wholeValues(const DrawnPart& part, const DrawnValues& values);
 
 /// How many visible voxels are in each cell of a box, which has CellsASide of them a side.
 struct VTKBRAINSHIFTREPRESENTATIONS_EXPORT TissueCounts

@@ -34,7 +34,7 @@ vec3 alongAxis(int axis)
 void addSample(vec3 deformed, float weight, inout Moments window)
 {
   vec3 rest = restFromDeformed(deformed);
-  float scalar = scalarAt(rest);
+  float scalar = scalarAt(heldFromRest(rest));
   vec3 place = (referenceFromTexture * vec4(deformed, 1.0)).xyz;
   Referenced other = referenced(place, textureLod(reference, place, 0.0).r);
   if (insideVolume(rest) && isNumber(scalar) && other.known && !isRemoved(deformed))

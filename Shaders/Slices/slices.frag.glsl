@@ -26,24 +26,26 @@ float finerAt(vec3 rest)
 void main()
 {
   vec3 rest = restFromDeformed(deformed);
+  vec3 held = heldFromRest(rest);
 #ifdef STREAMED
   float scalar = finerAt(rest);
 #else
-  float scalar = filteredAt(scalars, rest, voxels, cubic);
+  float scalar = filteredAt(scalars, held, voxels, cubic);
 #endif
   bool hasTissue = insideVolume(rest) && isNumber(scalar);
   vec4 tissue = tissueOf(scalar);
-  vec4 seen = vec4(markedInSlice(ownColorOf(tissue, rest), deformed, rest), tissue.a);
+  vec4 seen = vec4(markedInSlice(ownColorOf(tissue, held), deformed, rest), tissue.a);
   bool drawn = compare(hasTissue, scalar, Place(deformed, rest), seen);
   vec3 lineColor;
-  if (onCrosshair(deformed, lineColor))
+  bool isLine = onCrosshair(deformed, lineColor);
+  if (!inPart(deformed) || !(drawn || isLine))
+  {
+    discard;
+  }
+  if (isLine)
   {
     gl_FragData[0] = vec4(lineColor, 1.0);
     return;
-  }
-  if (!drawn)
-  {
-    discard;
   }
   float fraction = opacity * (mapsOpacity == 1 ? seen.a : 1.0);
   vec4 picture = vec4(seen.rgb * fraction, fraction);

@@ -27,8 +27,7 @@ REFUSALS = ["MPI rank 1 of {}: its part of the volume, .* The first rank draws t
             "MPI rank 1 of {}: its part of the volume has no array .* The picture stays as it was"]
 #: Why ranks draw no parts, as reported.
 REASONS = ["Trace Points are shown beside it", "a volume that is no Deformed Volume is shown",
-           "it is shown as slices", "its blend mode is neither",
-           "two colours compare it with a reference"]
+           "its blend mode is neither", "two colours compare it with a reference"]
 
 # Points of a ball, shared out among the ranks in order.
 PARTS = """
@@ -488,6 +487,13 @@ def batch(ranks, folder, script=__file__, expected=()):
     assert not errors, errors
     with numpy.load(name) as saved:
         return dict(saved), said
+
+
+def largest(found, expected):
+    """The largest difference; nan, which says that nothing was found, is equal to nan."""
+    assert found.shape == expected.shape, (found.shape, expected.shape)
+    assert (numpy.isnan(found) == numpy.isnan(expected)).all(), (found, expected)
+    return numpy.abs(numpy.nan_to_num(found) - numpy.nan_to_num(expected)).max()
 
 
 def answers_of_batch(ranks, folder):

@@ -60,7 +60,6 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
     { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
     { "AmbientOcclusion", { mapper->GetAmbientOcclusion() } },
     { "OcclusionRadius", { mapper->GetOcclusionRadius() } },
-    { "RankHalo", { representation->GetRankHalo() } },
     { "KeepPicture", { double(mapper->GetKeepPicture()) } },
     { "CountSamples", { double(mapper->GetCountSamples()) } },
     { "MemoryLimit", { mapper->GetMemoryLimit() } },
@@ -75,6 +74,9 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   const Defaults ofEvidence{ { "ShowEvidence",
     { double(mapper->GetShowEvidence()), double(slices->GetShowEvidence()) } } };
   EXPECT_EQ(defaultsIn("Representations/Proxies/ShowEvidence.xml"), ofEvidence);
+  const Defaults ofRanks{ { "RankHalo",
+    { representation->GetRankHalo(), representation->GetRankHalo() } } };
+  EXPECT_EQ(defaultsIn("Representations/Proxies/RankHalo.xml"), ofRanks);
 }
 
 TEST(Defaults, OfTracePointsLiveInTheClass)

@@ -9,7 +9,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 load_plugin()
 from paraview.simple import OpenDataFile  # noqa: E402 after the plugin
-from ranks_testing import MPI, answers, answers_of_batch  # noqa: E402
+from ranks_testing import MPI, answers, answers_of_batch, largest  # noqa: E402
 
 FOLDER = scratch("ranks")
 SERVER_FINDS_PLUGIN = server_finds_plugin()
@@ -53,13 +53,6 @@ def assert_refused(found):
 
 EXPECTED = expected_answers()
 EXPECTED_FILES = files_of(folder_of(1))
-
-
-def largest(found, expected):
-    """The largest difference; nan, which says that nothing was found, is equal to nan."""
-    assert found.shape == expected.shape, (found.shape, expected.shape)
-    assert (numpy.isnan(found) == numpy.isnan(expected)).all(), (found, expected)
-    return numpy.abs(numpy.nan_to_num(found) - numpy.nan_to_num(expected)).max()
 
 
 def assert_same(found, expected=EXPECTED):
