@@ -154,8 +154,7 @@ Extent pieceAskedOf(vtkInformation* output)
   return piece;
 }
 
-std::vector<Extent> cutToFit(
-  const Extent& extent, const std::function<bool(const Extent&)>& fits)
+std::vector<Extent> cutToFit(const Extent& extent, const std::function<bool(const Extent&)>& fits)
 {
   const int axis = longestAxisOf(extent);
   const int first = extent[2 * axis];

@@ -125,8 +125,8 @@ struct Request
     {
       return { this->asked };
     }
-    return cutToFit(this->asked,
-      [&](const Extent& block) { return this->fits(this->restOf(lattice, block)); });
+    return cutToFit(
+      this->asked, [&](const Extent& block) { return this->fits(this->restOf(lattice, block)); });
   }
 };
 }
@@ -265,8 +265,8 @@ void vtkBakeDeformation::BakeBlock(Work& work, std::size_t number)
     {
       bringPart(work.information, needed);
     }
-    lacking = work.baked.bake(
-      work.input, block, work.lowest ? &*work.lowest : nullptr, reading, proceed);
+    lacking =
+      work.baked.bake(work.input, block, work.lowest ? &*work.lowest : nullptr, reading, proceed);
     work.isStopped = lacking.stopped;
     needed = lacking.extent ? *lacking.extent : needed;
     if (lacking.lowest && !work.isStopped)

@@ -184,8 +184,8 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
   tissue.labels = isLabelMap(image);
   tissue.nearest = tissue.labels || this->Interpolation == Nearest;
-  tissue.range = rangeOf(this->Internal->Part, image, values,
-    drawnComponents(tissue.property, values.scalars).scalar);
+  tissue.range = rangeOf(
+    this->Internal->Part, image, values, drawnComponents(tissue.property, values.scalars).scalar);
   const ReferenceVolume reference = readReference(image);
   tissue.compared = reference.voxels &&
     (reference.show == ReferenceShow::Reference ||
@@ -258,8 +258,7 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
     gpu.goOnWithout("The reference is not drawn");
     scene.reference = ReferenceScene();
   }
-  if (this->ShowEvidence &&
-    !device.Evidence.update(gpu, state.Deformation, whole, scene.evidence))
+  if (this->ShowEvidence && !device.Evidence.update(gpu, state.Deformation, whole, scene.evidence))
   {
     return false;
   }
@@ -508,8 +507,8 @@ const Counters& vtkDeformedSlicesMapper::GetCounters()
   count.gpuOtherBytes = 0;
   this->CountDetail();
   this->Internal->Devices.visit([&](Device& device) {
-    count.gpuScalarBytes += textureBytes(device.Tissue.scalars()) +
-      textureBytes({ device.Bricks.bricks().textures() });
+    count.gpuScalarBytes +=
+      textureBytes(device.Tissue.scalars()) + textureBytes({ device.Bricks.bricks().textures() });
     count.gpuOtherBytes += textureBytes({ device.Reference.textures(),
       device.Tissue.otherTextures(), device.Deformation.field().textures(),
       { device.Evidence.texture() }, device.Resected.textures(), device.Bricks.images() });

@@ -93,8 +93,8 @@ private:
   /** Widens bounds (mm; x, y, z, least and greatest each) by where the volume's tissue can go. */
   virtual void WidenByTissue(vtkImageData*, double[6]) = 0;
   /** The voxels whose tissue can come into a part of the deformed frame. */
-  virtual std::array<int, 6> RestExtent(const brainshift::WholeVolume&, vtkImageData*,
-    const std::array<double, 6>&, double haloMm) = 0;
+  virtual std::array<int, 6> RestExtent(
+    const brainshift::WholeVolume&, vtkImageData*, const std::array<double, 6>&, double haloMm) = 0;
   /** Adds the visible voxels of a part of the volume to those of a view. None (default): ranks that
    * draw nothing else get boxes of one size. */
   virtual void CountVisible(vtkImageData*, brainshift::TissueCounts&) {}

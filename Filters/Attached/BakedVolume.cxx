@@ -76,8 +76,7 @@ bool isLike(vtkDataArray* array, vtkDataArray* other)
       array->GetNumberOfComponents() == other->GetNumberOfComponents());
 }
 
-Lacking bakeArrays(vtkDataSetAttributes* from,
-  const std::vector<vtkSmartPointer<vtkDataArray>>& to,
+Lacking bakeArrays(vtkDataSetAttributes* from, const std::vector<vtkSmartPointer<vtkDataArray>>& to,
   const std::vector<std::vector<double>>& lowest, const Resampling& how)
 {
   Lacking lacking;
@@ -124,8 +123,7 @@ ResampleGeometry BakedVolume::geometryOf(const Extent& held, const Extent& block
   geometry.dimensions = cells ? grid.dimensions - 1 : grid.dimensions;
   geometry.held = indicesOf(held, whole, cells);
   geometry.target = indicesOf(this->Asked, whole, cells);
-  geometry.written =
-    indicesOf(cells ? withNextPoints(block, this->Asked) : block, whole, cells);
+  geometry.written = indicesOf(cells ? withNextPoints(block, this->Asked) : block, whole, cells);
   const glm::dvec3 middle(cells ? 0.5 : 0.0);
   geometry.latticeFromIndex = grid.spacing / this->Lattice.spacing;
   geometry.latticeOfFirst = this->Lattice.gridFromWorld(grid.worldFromGrid(middle));
@@ -159,8 +157,8 @@ LackingBlock BakedVolume::bake(vtkImageData* input, const Extent& block, const L
   LackingBlock lacking;
   for (const bool cells : { false, true })
   {
-    vtkDataSetAttributes* from = cells ? static_cast<vtkDataSetAttributes*>(input->GetCellData())
-                                       : input->GetPointData();
+    vtkDataSetAttributes* from =
+      cells ? static_cast<vtkDataSetAttributes*>(input->GetCellData()) : input->GetPointData();
     Arrays& to = cells ? this->Cells : this->Points;
     if (!to.isMade)
     {
@@ -187,8 +185,8 @@ void BakedVolume::giveTo(vtkImageData* image) const
   image->SetExtent(const_cast<int*>(this->Asked.data()));
   for (const bool cells : { false, true })
   {
-    vtkDataSetAttributes* to = cells ? static_cast<vtkDataSetAttributes*>(image->GetCellData())
-                                     : image->GetPointData();
+    vtkDataSetAttributes* to =
+      cells ? static_cast<vtkDataSetAttributes*>(image->GetCellData()) : image->GetPointData();
     const Arrays& arrays = cells ? this->Cells : this->Points;
     to->Initialize();
     for (const vtkSmartPointer<vtkDataArray>& array : arrays.all)

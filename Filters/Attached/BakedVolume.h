@@ -45,8 +45,8 @@ public:
    * @param volume    all of it
    * @param asked     the part
    */
-  BakedVolume(
-    const WholeVolume& volume, const Grid& lattice, const BackwardMap& backward, const Extent& asked)
+  BakedVolume(const WholeVolume& volume, const Grid& lattice, const BackwardMap& backward,
+    const Extent& asked)
     : Volume(volume)
     , Lattice(lattice)
     , Backward(backward)

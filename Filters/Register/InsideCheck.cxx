@@ -107,8 +107,7 @@ void InsideCheck::read()
     region.crop(this->Pair, this->Result);
     this->IsFinished = !region.allowsFiner(this->Now);
   }
-  this->Level =
-    std::make_unique<PyramidLevel>(this->Pair, region, this->Now, this->Result);
+  this->Level = std::make_unique<PyramidLevel>(this->Pair, region, this->Now, this->Result);
 }
 
 // Where there are too few samples, it begins again with a finer spacing. False: there is none.
@@ -135,8 +134,8 @@ bool InsideCheck::compare()
   RefinementLevel finer = this->Now;
   finer.spacingMm *= Finer;
   const Grid& whole = this->Whole.rest.grid;
-  const bool isFiner = coarseGrid(whole, finer.spacingMm).spacing !=
-    coarseGrid(whole, this->Now.spacingMm).spacing;
+  const bool isFiner =
+    coarseGrid(whole, finer.spacingMm).spacing != coarseGrid(whole, this->Now.spacingMm).spacing;
   // The outline is found in all of the volume.
   const bool isSmall = withinMemory(finer, whole).spacingMm == finer.spacingMm;
   this->Now = finer;

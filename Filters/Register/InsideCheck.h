@@ -46,7 +46,7 @@ private:
   RegisteredPair Pair; // on points of that spacing; its mask is far within the tissue
   std::unique_ptr<PyramidLevel> Level;
   std::vector<double> Costs; // as it is, then beside it
-  bool IsFiner = false; // than the level it was made for
+  bool IsFiner = false;      // than the level it was made for
   bool IsFinished = false;
 };
 }

@@ -45,7 +45,10 @@ public:
    * The lattice after the last step. While a level searches from several positions, the best that
    * it has found.
    */
-  const Lattice& lattice() const { return this->isBehind() ? this->Best->lattice : this->State.bent; }
+  const Lattice& lattice() const
+  {
+    return this->isBehind() ? this->Best->lattice : this->State.bent;
+  }
 
   /** Hands the volumes back, once it is finished. */
   RegisteredPair takePair() { return std::move(this->Pair); }

@@ -63,7 +63,8 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
   Verdict verdict;
   if (!figures.halvesMm && !figures.otherMm)
   {
-    verdict.reasons.push_back("The result was not checked, because too little was compared that tells where tissue belongs.");
+    verdict.reasons.push_back("The result was not checked, because too little was compared that "
+                              "tells where tissue belongs.");
     return verdict;
   }
   verdict.trust = Trust::Good;

@@ -192,7 +192,8 @@ glm::dvec3 directionOf(const Json& axis)
     { "superior-to-inferior", { 0, 0, -1 } } };
   const Json& orientation = memberOf(axis, "orientation");
   const auto found = Known.find(textIn(memberOf(orientation, "value")));
-  const bool isKnown = textIn(memberOf(orientation, "type")) == "anatomical" && found != Known.end();
+  const bool isKnown =
+    textIn(memberOf(orientation, "type")) == "anatomical" && found != Known.end();
   return isKnown ? found->second : glm::dvec3(0.0);
 }
 

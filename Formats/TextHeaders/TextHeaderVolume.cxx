@@ -63,7 +63,8 @@ std::string termsIn(const std::string& tags)
   {
     return "";
   }
-  std::istringstream entry(tags.substr(begin + key.size(), tags.find('|', begin) - begin - key.size()));
+  std::istringstream entry(
+    tags.substr(begin + key.size(), tags.find('|', begin) - begin - key.size()));
   std::vector<std::string> parts;
   for (std::string part; std::getline(entry, part, '~');)
   {

@@ -240,7 +240,7 @@ void makePositions(Warp& warp)
 double explainedByVoxels(const Warp& warp)
 {
   const glm::dvec3 middle = 0.5 * glm::dvec3(warp.frame.dimensions - 1);
-  glm::dmat4 squares(0.0); // sums of the products of (voxel, 1) with itself
+  glm::dmat4 squares(0.0);    // sums of the products of (voxel, 1) with itself
   glm::dmat4x3 products(0.0); // and with the numbers
   glm::dvec3 sum(0.0);
   double all = 0.0;

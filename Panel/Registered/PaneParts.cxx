@@ -65,8 +65,9 @@ QString trustText(const QString& trust)
 QString changedText(int steps)
 {
   return steps > 0
-    ? CostPlot::tr("It ended after %1 steps. The deformation or its reference has changed since, so "
-                   "the figures no longer hold.")
+    ? CostPlot::tr(
+        "It ended after %1 steps. The deformation or its reference has changed since, so "
+        "the figures no longer hold.")
         .arg(steps)
     : QString();
 }

@@ -423,8 +423,8 @@ void RefinePane::report()
       break;
   }
   showTexts(this->Report, report, this->Warning, warning);
-  const QString errors = this->OfLandmarks &&
-      this->Editor->state() != RefineEditor::State::Idle && !this->Editor->hasChangedSince()
+  const QString errors = this->OfLandmarks && this->Editor->state() != RefineEditor::State::Idle &&
+      !this->Editor->hasChangedSince()
     ? errorTable(this->OfLandmarks->errors(), this->OfLandmarks->note())
     : QString();
   this->Errors->setText(errors);

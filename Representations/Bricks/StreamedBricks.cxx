@@ -153,8 +153,8 @@ bool StreamedBricks::accepts(const BrickView& view, const TissueRequest& tissue)
   const DrawnComponents drawn = drawnComponents(tissue.property, tissue.values.scalars);
   const bool isBlended = tissue.blend == Blend::Composite && !tissue.nearest;
   return (view.ofSlices || isBlended) && tissue.opacity == Opacity::Scalar && !tissue.compared &&
-    !tissue.labels && !tissue.segment.segmentation.labels && drawn.coloring == Coloring::Mapped && drawn.scalar >= 0 &&
-    !CategoryScalars::areWanted(tissue.property);
+    !tissue.labels && !tissue.segment.segmentation.labels && drawn.coloring == Coloring::Mapped &&
+    drawn.scalar >= 0 && !CategoryScalars::areWanted(tissue.property);
 }
 
 // Whether the room for bricks suits the limit. What else is drawn takes more or less of it from
@@ -285,8 +285,7 @@ bool StreamedBricks::allocate(GpuTask& gpu)
   const double allowed = this->LimitMiB > 0.0 ? this->LimitMiB : usualMiB;
   const glm::ivec3 bricks = this->Order.fine.bricks();
   const std::int64_t inLevel = static_cast<std::int64_t>(bricks.x) * bricks.y * bricks.z;
-  const std::int64_t all =
-    this->MostBricks > 0 ? std::min(inLevel, this->MostBricks) : inLevel;
+  const std::int64_t all = this->MostBricks > 0 ? std::min(inLevel, this->MostBricks) : inLevel;
   const int longest = vtkTextureObject::GetMaximumTextureSize3D(gpu.window) / SlotSideVoxels;
   std::int64_t slots = std::min<std::int64_t>(
     all, static_cast<std::int64_t>(allowed * BytesInMiB / (this->Bytes * SlotVoxels)));

@@ -35,8 +35,8 @@ struct BrickView
 
 /// The view of the camera that draws now. `need`: the memory of all else. `limitMiB`: of all memory;
 /// 0: none.
-BrickView brickViewOf(const DrawnVolume& drawn, const DrawnValues& values, const MemoryNeed& need,
-  double limitMiB);
+BrickView brickViewOf(
+  const DrawnVolume& drawn, const DrawnValues& values, const MemoryNeed& need, double limitMiB);
 
 /// Whether the camera draws the left one of two eyes.
 bool isLeftEye(const DrawnVolume& drawn);

@@ -49,8 +49,8 @@
 #include "shader_segment.h"
 #include "shader_similarity.h"
 #include "shader_skipping.h"
-#include "shader_slice_frag.h"
 #include "shader_slice_bricks_frag.h"
+#include "shader_slice_frag.h"
 #include "shader_slices_frag.h"
 #include "shader_slices_vert.h"
 #include "shader_smooth_occlusion_frag.h"
@@ -300,11 +300,10 @@ ShaderSource slicesSource(const SlicesVariant& variant)
     (variant.cavity ? "#define CAVITY\n" : "") + (variant.evidence ? "#define EVIDENCE\n" : "") +
     resectionDefines(variant.removed, variant.tumour) + (variant.streamed ? brickDefines() : "");
   return { assemble({ shader_slices_vert }), "",
-    assemble(
-      { Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment, shader_tissue,
-        variant.streamed ? std::string(shader_streamed) : "", shader_resection, shader_components,
-        shader_evidence, shader_cubic, shader_cavity, shader_part, shader_crosshair,
-        shader_comparison, shader_similarity, shader_slices_frag }) };
+    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
+      shader_tissue, variant.streamed ? std::string(shader_streamed) : "", shader_resection,
+      shader_components, shader_evidence, shader_cubic, shader_cavity, shader_part,
+      shader_crosshair, shader_comparison, shader_similarity, shader_slices_frag }) };
 }
 
 ShaderSource sliceBricksSource(bool deformed)

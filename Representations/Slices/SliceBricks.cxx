@@ -48,8 +48,8 @@ bool areSame(const std::vector<double>& a, const std::vector<double>& b)
 }
 }
 
-void SliceBricks::update(GpuTask& gpu, BrickView view, const SliceTissue& tissue,
-  SliceScene& scene, const std::optional<Clock::time_point>& end)
+void SliceBricks::update(GpuTask& gpu, BrickView view, const SliceTissue& tissue, SliceScene& scene,
+  const std::optional<Clock::time_point>& end)
 {
   const std::vector<SliceQuad> quads = wholeQuads(scene.planes);
   view.ofSlices = true;
@@ -104,8 +104,7 @@ std::vector<glm::vec2> SliceBricks::ask(
 }
 
 // Whether the slices may read other bricks than when this eye asked last.
-bool SliceBricks::isChanged(
-  const GpuTask& gpu, const SliceScene& scene, const glm::ivec2& pixels)
+bool SliceBricks::isChanged(const GpuTask& gpu, const SliceScene& scene, const glm::ivec2& pixels)
 {
   std::vector<double> now{ static_cast<double>(pixels.x), static_cast<double>(pixels.y),
     scene.blended ? 1.0 : 0.0 };
@@ -125,7 +124,8 @@ bool SliceBricks::isChanged(
         planes.high[axis] });
   }
   const Counters& count = gpu.counters;
-  for (const std::int64_t bent : { count.latticeUploads, count.texelsRefined, count.correctionBytes })
+  for (const std::int64_t bent :
+    { count.latticeUploads, count.texelsRefined, count.correctionBytes })
   {
     now.push_back(static_cast<double>(bent));
   }

@@ -184,8 +184,8 @@ public:
     {
       return true;
     }
-    const PixelBox drawn = overlap(pixelsOf(quad, this->Scene.part, clipFromTexture(this->Scene.frame),
-                                     boxOf(this->Viewport)),
+    const PixelBox drawn = overlap(
+      pixelsOf(quad, this->Scene.part, clipFromTexture(this->Scene.frame), boxOf(this->Viewport)),
       boxOf(this->Scissor));
     if (!drawn.empty())
     {
@@ -251,11 +251,10 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
       drawQuad(program, quad);
     }
   }
-  for (vtkTextureObject* texture :
-    { tissue.scalars, tissue.transfer, tissue.coloring.colors, tissue.coloring.scalars,
-      scene.reference.place.scalars, scene.reference.cavity.voxels, scene.evidence.deviations,
-      scene.resection.removed.fractions, scene.resection.tumour.fractions, scene.bricks.pages,
-      scene.bricks.atlas })
+  for (vtkTextureObject* texture : { tissue.scalars, tissue.transfer, tissue.coloring.colors,
+         tissue.coloring.scalars, scene.reference.place.scalars, scene.reference.cavity.voxels,
+         scene.evidence.deviations, scene.resection.removed.fractions,
+         scene.resection.tumour.fractions, scene.bricks.pages, scene.bricks.atlas })
   {
     if (texture)
     {

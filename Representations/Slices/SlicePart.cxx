@@ -57,7 +57,8 @@ SlicePart slicePartOf(
 PixelBox pixelsOf(const SliceQuad& quad, const SlicePart& part, const glm::dmat4& clipFromTexture,
   const PixelBox& viewport)
 {
-  const glm::dvec3 low = glm::max(glm::min(quad.corner, quad.corner + quad.right + quad.up), part.low);
+  const glm::dvec3 low =
+    glm::max(glm::min(quad.corner, quad.corner + quad.right + quad.up), part.low);
   const glm::dvec3 high =
     glm::min(glm::max(quad.corner, quad.corner + quad.right + quad.up), part.high);
   constexpr double rounding = 1e-6; // texture units

@@ -61,7 +61,8 @@ vtkSmartPointer<vtkImageData> manyNumbers()
   }
   vectors->SetTuple3(points - 1, -3.0, -4.0, -5.0);
   image->GetPointData()->AddArray(vectors);
-  auto ofCells = arrayOf(VTK_DOUBLE, "OfCells", cells, [](vtkIdType i) { return 0.37 * (i % 999); });
+  auto ofCells =
+    arrayOf(VTK_DOUBLE, "OfCells", cells, [](vtkIdType i) { return 0.37 * (i % 999); });
   ofCells->SetTuple1(cells - 1, -9.0);
   image->GetCellData()->AddArray(ofCells);
   return image;
@@ -70,12 +71,12 @@ vtkSmartPointer<vtkImageData> manyNumbers()
 // What bends the volume.
 enum class Bend
 {
-  Strokes,  // within
-  Border,   // takes tissue from outside
-  Masked,   // trilinear between masked nodes
-  Negated,  // subtracts the displacement there
-  Coarse,   // B-splines
-  Folding,  // random: the inverse is not one
+  Strokes, // within
+  Border,  // takes tissue from outside
+  Masked,  // trilinear between masked nodes
+  Negated, // subtracts the displacement there
+  Coarse,  // B-splines
+  Folding, // random: the inverse is not one
 };
 
 class Pipeline
@@ -107,9 +108,8 @@ public:
     if (bend == Bend::Folding)
     {
       Random random(11);
-      this->Field = fieldOn(withDimensions(grid, { 9, 8, 7 }), [&](const glm::dvec3&) {
-        return random.between(glm::dvec3(-17.0), glm::dvec3(17.0));
-      });
+      this->Field = fieldOn(withDimensions(grid, { 9, 8, 7 }),
+        [&](const glm::dvec3&) { return random.between(glm::dvec3(-17.0), glm::dvec3(17.0)); });
       this->Deform->SetInputDataObject(1, this->Field);
       this->Deform->SetGuardFolding(false);
     }
@@ -259,8 +259,8 @@ TEST(BakePart, FollowsAnotherStroke)
   Pipeline pipeline(volume);
   const Extent asked{ 5, 64, -3, 46, 12, 21 };
   pipeline.part(asked);
-  const auto strokes = { strokeAt(Tool::Soft, gridOf(volume).worldFromGrid({ 30, 20, 10 }),
-    { 1.0, 9.0, -8.0 }) };
+  const auto strokes = { strokeAt(
+    Tool::Soft, gridOf(volume).worldFromGrid({ 30, 20, 10 }), { 1.0, 9.0, -8.0 }) };
   setStrokes(pipeline.Deform, strokes);
   vtkNew<vtkImageData> part;
   part->DeepCopy(pipeline.part(asked));

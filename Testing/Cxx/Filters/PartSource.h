@@ -50,8 +50,7 @@ protected:
     vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
   {
     vtkInformation* info = outputs->GetInformationObject(0);
-    info->Set(
-      vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extentOf(this->Whole).data(), 6);
+    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extentOf(this->Whole).data(), 6);
     info->Set(vtkDataObject::ORIGIN(), this->Whole->GetOrigin(), 3);
     info->Set(vtkDataObject::SPACING(), this->Whole->GetSpacing(), 3);
     info->Set(vtkDataObject::DIRECTION(), this->Whole->GetDirectionMatrix()->GetData(), 9);
@@ -59,8 +58,7 @@ protected:
     return 1;
   }
 
-  int RequestData(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
   {
     const Extent asked = updateExtentOf(outputs->GetInformationObject(0));
     this->Delivered.push_back(asked);

@@ -304,8 +304,8 @@ TEST(Orientations, HaveNames)
   EXPECT_EQ(orientationText(quarter, glm::dmat3(1.0)),
     "rotated by 90 degrees about the direction (0, 0, 1)");
   const glm::dmat3 leftHanded(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1));
-  EXPECT_EQ(orientationText(quarter, leftHanded),
-    "rotated by 90 degrees about the direction (0, 0, -1)");
+  EXPECT_EQ(
+    orientationText(quarter, leftHanded), "rotated by 90 degrees about the direction (0, 0, -1)");
   const glm::dmat3 turned(glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1));
   EXPECT_NE(orientationText(turned, glm::dmat3(1.0)).find("mirrored from"), std::string::npos);
 }

@@ -219,8 +219,7 @@ std::optional<FineGrid> levelSeen(double half, glm::dvec2 acrossMm = { 0.5, 1.0 
 {
   const DrawnValues values = valuesOfLevel();
   const glm::dmat4 clipFromEye = glm::ortho(-half, half, -half, half, 1.0, 500.0);
-  return levelFor(
-    values, finerGrids(acrossMm), viewOf(values, clipFromEye, { 64.0, 64.0, 300.0 }));
+  return levelFor(values, finerGrids(acrossMm), viewOf(values, clipFromEye, { 64.0, 64.0, 300.0 }));
 }
 }
 
@@ -258,8 +257,7 @@ TEST(LevelFor, CountsPixelsWhereSlicesAreNearest)
   const DrawnValues values = valuesOfLevel();
   // 100 pixels show 180 mm at a distance of 180 mm; the volume begins 60 mm from the eye.
   const double angle = 2.0 * std::atan(0.5);
-  BrickView view =
-    viewOf(values, glm::perspective(angle, 1.0, 1.0, 500.0), { 64.0, 64.0, 187.5 });
+  BrickView view = viewOf(values, glm::perspective(angle, 1.0, 1.0, 500.0), { 64.0, 64.0, 187.5 });
   const std::vector<Grid> finer = finerGrids({ 0.5, 1.0 });
   FineGrid none;
   none.level = 99;

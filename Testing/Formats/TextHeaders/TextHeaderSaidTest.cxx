@@ -186,8 +186,7 @@ TEST(TextHeaderSaid, PicturesOfATrackedProbeAreNoVolume)
   const auto tracked = [&](int frame) {
     return "Seq_Frame000" + std::to_string(frame) + "_ProbeToTrackerTransform";
   };
-  expectRefused<Meta>("sweep.igs.mha",
-    metaImage({ { tracked(0), place }, { tracked(1), place } }),
+  expectRefused<Meta>("sweep.igs.mha", metaImage({ { tracked(0), place }, { tracked(1), place } }),
     "holds 2 pictures of a tracked probe, each at a place of its own");
   expectRefused<NRRD>("sweep.igs.nrrd", nrrd(Placed + tracked(1) + ":=" + place + "\n"),
     "SlicerIGT, Volume Reconstruction");
