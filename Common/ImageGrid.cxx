@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/ImageGrid.h"
 
-#include "Common/ImageParts.h"
-
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"

@@ -31,6 +31,12 @@ constexpr double MostMissOfRotation = 1e-4;
 VTKBRAINSHIFTCOMMON_EXPORT Grid gridOf(vtkImageData* image);
 
 /**
+ * The grid of the points of an extent, which may be another than that of the image: the same, bit
+ * for bit, whichever part the image has.
+ */
+VTKBRAINSHIFTCOMMON_EXPORT Grid gridOf(vtkImageData* image, const int extent[6]);
+
+/**
  * What is wrong with the position of a grid, as the end of a sentence about it, without a full
  * stop: its spacing must be from ShortestSpacing to LongestSpacing, its origin at most
  * FarthestOriginSpacings away from 0, its other numbers finite, its axes perpendicular and 1 long

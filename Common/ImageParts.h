@@ -27,12 +27,6 @@ VTKBRAINSHIFTCOMMON_EXPORT double pointsIn(const Extent& extent);
 /** The extent of an image. */
 VTKBRAINSHIFTCOMMON_EXPORT Extent extentOf(vtkImageData* image);
 
-/**
- * The grid of the points of an extent, which may be another than that of the image: the same, bit
- * for bit, whichever part the image has.
- */
-VTKBRAINSHIFTCOMMON_EXPORT Grid gridOf(vtkImageData* image, const int extent[6]);
-
 /** The whole extent that the pipeline knows. */
 VTKBRAINSHIFTCOMMON_EXPORT Extent wholeExtentOf(vtkInformation* image);
 
@@ -59,7 +53,9 @@ VTKBRAINSHIFTCOMMON_EXPORT std::vector<Extent> cutToFit(
 
 constexpr int LeastSide = 24; ///< points
 
-/** An extent, and one more point along each axis where the whole goes on: with the cells between. */
+/**
+ * An extent, and one more point along each axis where the whole goes on: with the cells between.
+ */
 VTKBRAINSHIFTCOMMON_EXPORT Extent withNextPoints(const Extent& extent, const Extent& whole);
 
 /**

@@ -372,8 +372,8 @@ void vtkDeformedSlicesMapper::PlacePlanes(const DrawnValues& values, SliceScene&
 }
 
 // Tissue is not seen outside the volume, without a value, or where it is transparent. `texture`: in
-// the layout that was drawn, which may be coarser than the voxels, or of a volume of which this rank
-// has a part.
+// the layout that was drawn, which may be coarser than the voxels, or of a volume of which this
+// rank has a part.
 bool vtkDeformedSlicesMapper::IsSeenAt(const ValueLayout& drawn, const glm::dvec3& texture)
 {
   State& state = *this->Internal;

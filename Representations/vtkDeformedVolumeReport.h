@@ -99,9 +99,10 @@ public:
 
   /**
    * Six numbers on what a Deformed Volume or Deformed Slices draw of a finer level: the level, -1:
-   * none; bricks that are there; bricks that are still to come, 0: a further picture would be the same; 1 if the view
-   * has more than there is room for, or 0; 1 while more are read, so that a picture a little later
-   * shows more, or 0; 1 if bricks were read that no picture has shown, or 0. Nothing is drawn.
+   * none; bricks that are there; bricks that are still to come, 0: a further picture would be the
+   * same; 1 if the view has more than there is room for, or 0; 1 while more are read, so that a
+   * picture a little later shows more, or 0; 1 if bricks were read that no picture has shown, or 0.
+   * Nothing is drawn.
    */
   int* GetDetail() VTK_SIZEHINT(6);
 

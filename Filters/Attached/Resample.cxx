@@ -260,9 +260,10 @@ struct Source
 // Writes one row of the target; `index` is its first voxel. Positions count from the row's first
 // voxel in the whole volume, so that they are the same in each part.
 template <typename T>
-void resampleRow(const Source<T>& source, const Resampling& how, OffsetRow& row,
-  const glm::ivec3& index, T* out, Lacking& lacking)
+Lacking resampleRow(
+  const Source<T>& source, const Resampling& how, OffsetRow& row, const glm::ivec3& index, T* out)
 {
+  Lacking lacking;
   const Voxels<T>& voxels = source.voxels;
   const auto components = static_cast<std::ptrdiff_t>(source.outside.size());
   const ResampleGeometry& geometry = how.geometry;
@@ -300,6 +301,7 @@ void resampleRow(const Source<T>& source, const Resampling& how, OffsetRow& row,
     }
   }
   std::copy_n(voxels.at({ still, index.y, index.z }), (end - still) * components, out);
+  return lacking;
 }
 
 template <typename T>
@@ -337,7 +339,7 @@ Lacking resampleTyped(vtkDataArray* array, vtkDataArray* target, const std::vect
       {
         const glm::ivec3 index = geometry.written.first +
           glm::ivec3(0, static_cast<int>(row % size.y), static_cast<int>(row / size.y));
-        resampleRow(source, how, offsetRow, index, outAt(index), ofRows);
+        ofRows.add(resampleRow(source, how, offsetRow, index, outAt(index)));
       }
       const std::lock_guard<std::mutex> lock(mutex);
       lacking.add(ofRows);

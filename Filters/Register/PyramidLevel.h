@@ -92,8 +92,8 @@ private:
 };
 
 /**
- * A level of a check, coarser if its grid over all of a volume had more points than memory should be
- * taken for.
+ * A level of a check, coarser if its grid over all of a volume had more points than memory should
+ * be taken for.
  */
 BRAINSHIFT_DEFORMATION_EXPORT RefinementLevel withinMemory(
   const RefinementLevel& level, const Grid& rest);

@@ -102,7 +102,8 @@ Json axesOf(const PyramidContent& content)
   {
     axes.push_back({ { "name", "c" }, { "type", "channel" } });
   }
-  // Where axes of voxels lead nearly along those of the world, other programs get to know the sides.
+  // Where axes of voxels lead nearly along those of the world, other programs get to know the
+  // sides.
   const glm::dmat3& direction = content.grid.direction;
   constexpr double Near = 0.7;
   const bool isUpright = direction[0][0] > Near && direction[1][1] > Near && direction[2][2] > Near;

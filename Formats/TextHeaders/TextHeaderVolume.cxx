@@ -244,8 +244,8 @@ bool isTextHeaderVolume(const std::string& fileName, TextFormat format)
   return hasVoxels && (dimensionsText.empty() || !(dimensions[0] < 3.0));
 }
 
-// The name of a transform of the second picture, if a file holds pictures of a tracked probe as PLUS
-// and 3D Slicer record them: Seq_Frame0001_ProbeToTrackerTransform. Empty: it does not.
+// The name of a transform of the second picture, if a file holds pictures of a tracked probe as
+// PLUS and 3D Slicer record them: Seq_Frame0001_ProbeToTrackerTransform. Empty: it does not.
 std::string trackedTransform(const HeaderText& text)
 {
   for (const auto* names : { &text.fields, &text.keys })

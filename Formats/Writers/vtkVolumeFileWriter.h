@@ -75,7 +75,9 @@ public:
   ///@}
 
   ///@{
-  /** An image of more MiB is asked for in layers of so many MiB, at least one layer. Default: 512. */
+  /**
+   * An image of more MiB is asked for in layers of so many MiB, at least one layer. Default: 512.
+   */
   vtkSetClampMacro(MemoryLimit, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MemoryLimit, double);
   ///@}

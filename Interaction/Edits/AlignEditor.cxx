@@ -3,7 +3,6 @@
 
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/LivePicture.h"
-#include "Interaction/Edits/RefineEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Flicker.h"
@@ -98,7 +97,7 @@ void AlignEditor::begin()
   {
     StrokeEditor::of(bent)->cancel();
     FitEditor::of(bent)->cancel();
-    RefineEditor::of(bent)->stop();
+    stopOn(bent);
   }
   this->Figures = {};
   const QString problem = this->beginAlignment();

@@ -119,6 +119,16 @@ void LiveRun::start()
   Q_EMIT this->changed();
 }
 
+void LiveRun::stopOn(pqPipelineSource* source)
+{
+  const auto runs = source ? source->findChildren<LiveRun*>(QString(), Qt::FindDirectChildrenOnly)
+                           : QList<LiveRun*>();
+  for (LiveRun* run : runs)
+  {
+    run->stop();
+  }
+}
+
 void LiveRun::stop()
 {
   if (this->isActive())

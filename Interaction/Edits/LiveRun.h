@@ -38,6 +38,8 @@ public:
 
   /// Ends it and keeps the result so far: one undo step, none if nothing has changed.
   void stop();
+  /// Stops what runs on a pipeline source, which may be null.
+  static void stopOn(pqPipelineSource* source);
   /// Ends it and restores the state before it. The undo stack sees nothing.
   void cancel(const QString& problem = {});
   /// Keeps the result that failed its checks and was discarded, as one undo step.

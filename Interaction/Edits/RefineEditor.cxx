@@ -2,7 +2,6 @@
 #include "Interaction/Edits/RefineEditor.h"
 
 #include "Interaction/Commands/Application.h"
-#include "Interaction/Edits/AlignEditor.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/Lineage.h"
 #include "Interaction/Edits/LivePicture.h"
@@ -244,10 +243,7 @@ void RefineEditor::stopAligning(pqPipelineSource* reference)
   comparisons.append(reference);
   for (pqPipelineSource* compare : comparisons)
   {
-    if (AlignEditor* editor = AlignEditor::of(compare))
-    {
-      editor->stop();
-    }
+    stopOn(compare);
   }
 }
 

@@ -45,8 +45,8 @@ bool isBentFrom(pqPipelineSource* source, vtkSMProxy* volume);
 pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view);
 /// A Free-Form Deformation that a view shows, if it does not show `deformation`. Otherwise null.
 pqPipelineSource* shownInstead(pqPipelineSource* deformation, pqView* view);
-/// Whether a representation has a Translation, an Orientation or a Scale. What it draws is elsewhere
-/// than its volume then, and tools do not work in it.
+/// Whether a representation has a Translation, an Orientation or a Scale. What it draws is
+/// elsewhere than its volume then, and tools do not work in it.
 bool isMoved(pqDataRepresentation* display);
 /// Whether a representation is Deformed Slices.
 bool showsSlices(pqDataRepresentation* display);

@@ -319,8 +319,8 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     - `cavity`: a ParaView source of a mask, if `reference` is no Compare Volumes. Tissue inside
       it does not count.
     - `callback`: is called after each step with the `Refinement` so far. If it returns `False`,
-      that is the result, and it is not checked; once the refinement goes on from a checked result,
-      that one is kept, unless a better one is known. The default is `None`.
+      that is the result, not checked; a checked one from which it went on is kept, unless a better
+      one is known. The default is `None`.
     - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
       `False`: it is an error, and the deformation stays as it was.
     - `starts`: number of positions from which the volume moves rigidly before it bends, 1 to 64.

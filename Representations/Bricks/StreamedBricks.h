@@ -33,8 +33,8 @@ struct BrickView
   std::int64_t mostBricks = 0;     ///< More are never asked for; 0: unknown.
 };
 
-/// The view of the camera that draws now. `need`: the memory of all else. `limitMiB`: of all memory;
-/// 0: none.
+/// The view of the camera that draws now. `need`: the memory of all else. `limitMiB`: of all
+/// memory; 0: none.
 BrickView brickViewOf(
   const DrawnVolume& drawn, const DrawnValues& values, const MemoryNeed& need, double limitMiB);
 

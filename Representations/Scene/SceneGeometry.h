@@ -48,8 +48,8 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ValueLayout coarser(
 glm::dvec3 roundingOf(const ValueLayout& layout);
 
 /// Number of the value nearest to a place (texture coordinates). None farther than `margin` outside
-/// the volume's box (texture coordinates along each axis). A place between two values belongs to the
-/// later one, whichever part of a volume the layout is of.
+/// the volume's box (texture coordinates along each axis). A place between two values belongs to
+/// the later one, whichever part of a volume the layout is of.
 std::optional<long long> nearestValue(
   const ValueLayout& layout, const glm::dvec3& texture, const glm::dvec3& margin);
 

@@ -3,8 +3,8 @@
 /// The part of the planes of Deformed Slices that one of several MPI ranks draws.
 ///
 /// All ranks draw the same rectangles, in texture coordinates of the whole volume. So a pixel has
-/// the same place and depth on each rank, to the bit, and exactly one rank draws it. Only voxels are
-/// read in coordinates of the texture that a rank has.
+/// the same place and depth on each rank, to the bit, and exactly one rank draws it. Only voxels
+/// are read in coordinates of the texture that a rank has.
 #ifndef BrainShift_SlicePart_h
 #define BrainShift_SlicePart_h
 

@@ -1,5 +1,5 @@
-// Which brick of a finer level a slice reads at a pixel: red is its number if it is not there, green
-// if it is. Else -1.
+// Which brick of a finer level a slice reads at a pixel: red is its number if it is not there,
+// green if it is. Else -1.
 
 in vec3 deformed; // texture coordinates
 
@@ -12,5 +12,6 @@ void main()
   }
   vec3 brick = brickOf(fineAt(rest));
   float number = numberOf(brick);
-  gl_FragData[0] = pageOf(brick).a < 0.5 ? vec4(number, -1.0, 0.0, 0.0) : vec4(-1.0, number, 0.0, 0.0);
+  gl_FragData[0] =
+    pageOf(brick).a < 0.5 ? vec4(number, -1.0, 0.0, 0.0) : vec4(-1.0, number, 0.0, 0.0);
 }

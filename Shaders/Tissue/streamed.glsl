@@ -1,5 +1,5 @@
-// Voxels of a finer level of the volume, in bricks that come while rays or slices ask for them. Where
-// a brick is not there, the volume's own voxels are drawn.
+// Voxels of a finer level of the volume, in bricks that come while rays or slices ask for them.
+// Where a brick is not there, the volume's own voxels are drawn.
 
 uniform sampler3D pages;      // for each brick: place of its slot, of 255; alpha 1 if it is there
 uniform sampler3D atlas;      // slots of bricks, each with a border: red: the scalar, as stored

@@ -257,8 +257,8 @@ TEST_HAND_EXPORT int test_hand_is_visible(const char* name)
   return 0;
 }
 
-// The text of a label or of a field of a number, or what another widget tells screen readers, by its
-// object name; nothing without one. Holds until the next call.
+// The text of a label or of a field of a number, or what another widget tells screen readers, by
+// its object name; nothing without one. Holds until the next call.
 TEST_HAND_EXPORT const char* test_hand_label(const char* name)
 {
   static QByteArray text;

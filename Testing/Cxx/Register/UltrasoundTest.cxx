@@ -187,7 +187,8 @@ TEST(Ultrasound, SeveralStartsFindWhatOneMisses)
   EXPECT_LT(several, 0.3);
 }
 
-// A caller may stop at any step: what it gets is never worse than the start, and its cost is its own.
+// A caller may stop at any step: what it gets is never worse than the start, and its cost is its
+// own.
 TEST(Ultrasound, SeveralStartsKeepTheBestAtEachStep)
 {
   RefinementSettings settings = byUltrasound();

@@ -6,7 +6,8 @@ import os
 
 import numpy
 import zarr_files
-from brainshift_testing import assert_says, load_plugin, messages, picture, run_tests, view_along, volume
+from brainshift_testing import (
+    assert_says, load_plugin, messages, picture, run_tests, view_along, volume)
 from slices_testing import flat_view, show_slices
 from streamed_store import (MIDDLE, bent, blurred, coarse, compare, differences, halved, lattice,
                             reader, save, store, voxels)

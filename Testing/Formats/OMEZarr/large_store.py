@@ -9,7 +9,7 @@
 The head of the tests is stretched over the size (x, y, z) and gets noise of 4 bits, so that it does
 not pack better than a scan. `judge` reads what fits each Memory Limit, and boxes of 96 voxels at
 random places and in the last corner at level 0, each in a process that is measured, and compares
-them with zarr-python. `bake` bends level 0 in the middle and at a corner, writes it piece by piece, and
+them with zarr-python. `bake` bends level 0 in the middle and at a corner, writes it in pieces, and
 compares boxes with what numpy reads where the tissue rests; with `whole` also every voxel with a
 bake of the whole, which needs the memory. No test runs it: the build server has neither the time
 nor the disk.

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that pairs of landmarks are picked by clicks in the four views of a head and its moved
-reference, first the tissue and then its place in the reference, not in the volume as loaded; that a
-half pair never reaches the fit, and a drag while picking is the camera's; that the table shows the filter's residuals and
-errors of pairs left out, marks the pair that fits worst, and lets a pair count or not by its tick;
-that each edit is one step to undo; that marks stand in the views, with letters that are as large to
-the eye at 200 %; that two lists without a common name are paired by their order on request; and
-that a state keeps the pairs.
+reference, first the tissue and then its place in the reference, not in the volume as loaded;
+that a half pair never reaches the fit, and a drag while picking is the camera's; that the table
+shows the filter's residuals and errors of pairs left out, marks the pair that fits worst, and
+lets a pair count or not by its tick; that each edit is one step to undo; that marks stand in the
+views, with letters that are as large to the eye at 200 %; that two lists without a common name
+are paired by their order on request; and that a state keeps the pairs.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math

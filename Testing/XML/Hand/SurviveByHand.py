@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that nothing crashes and no stroke is lost when things change under the hand in ParaView's
-window: no data yet, a hidden volume, data replaced or gone, one of the four views closed, undo past
-the filter's creation, a display with a transform, two filters at once, a large lattice; and, last, the window closed in
-mid-drag. And that O shows the volume as loaded without a tool.
+window: no data yet, a hidden volume, data replaced or gone, one of the four views closed, undo
+past the filter's creation, a display with a transform, two filters at once, a large lattice;
+and, last, the window closed in mid-drag. And that O shows the volume as loaded without a tool.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
@@ -362,8 +362,8 @@ def leave_in_mid_drag():
 
 
 STEPS = (without_data, hidden, data_replaced, source_deleted, representation_changed,
-         one_of_four_views_closed, undo_past_creation, moved_display, two_filters, before_without_a_tool,
-         large_lattice, selection_of_another_lattice, leave_in_mid_drag)
+         one_of_four_views_closed, undo_past_creation, moved_display, two_filters,
+         before_without_a_tool, large_lattice, selection_of_another_lattice, leave_in_mid_drag)
 
 if __name__ == "__main__":
     window.main("SurviveByHand", ((step,) for step in STEPS))
