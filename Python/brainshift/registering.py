@@ -319,14 +319,13 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     - `cavity`: a ParaView source of a mask, if `reference` is no Compare Volumes. Tissue inside
       it does not count.
     - `callback`: is called after each step with the `Refinement` so far. If it returns `False`,
-      that is the result, not checked; a checked one from which it went on is kept, unless a better
-      one is known. The default is `None`.
+      that is the result, not checked, or a checked one from which it went on. Default: `None`.
     - `keep_failed`: True keeps a result that fails its checks, with warnings. The default is
       `False`: it is an error, and the deformation stays as it was.
     - `starts`: number of positions from which the volume moves rigidly before it bends, 1 to 64.
-      Only the similarity for ultrasound moves it rigidly; for others it makes no difference. Beyond
-      the present one they are up to 6 mm and 6 degrees from it, always the same. The result with
-      the least cost is kept. The default is 1. Take 8 if the position may be more than 3 mm off.
+      Only the similarity for ultrasound moves it rigidly. All are up to 6 mm and 6 degrees from the
+      present one, always the same. The result with the least cost is kept. The default is 1. Take 8
+      if the position may be more than 3 mm off.
 
     Returns a `Refinement`.
 
