@@ -3,6 +3,7 @@
 
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/LivePicture.h"
+#include "Interaction/Edits/RefineEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Flicker.h"
