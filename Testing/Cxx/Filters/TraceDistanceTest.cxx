@@ -8,6 +8,7 @@
 #include "Filters/Traces/TriangleTree.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 #include "vtkCompareVolumes.h"
+#include "vtkDoubleArray.h"
 #include "vtkTraceDistance.h"
 
 #include <vtkFieldData.h>
