@@ -147,8 +147,8 @@ struct vtkBakeDeformation::Work
   const Request& request;
   const Lattice& lattice;
   BakedVolume baked;
-  std::vector<Extent> blocks;
-  std::optional<LowestValues> lowest; // of the whole input
+  std::vector<Extent> blocks{};
+  std::optional<LowestValues> lowest{}; // of the whole input
   bool isWhole = false;               // whether the input is
   bool isStopped = false;
 };
