@@ -78,6 +78,7 @@ def facts(display, view, x, y):
     report.UnRegister(None)
     report.GetProperty("Representation").AddProxy(display.SMProxy)
     report.GetProperty("View").AddProxy(view.SMProxy)
+    report.UpdateVTKObjects()  # all ranks look when they get the pixel
     report.GetProperty("Pixel").SetElements2(x, y)
     report.UpdateVTKObjects()
     numbers = []
@@ -193,14 +194,11 @@ def answer_scene(found):
     same = show_volume(bent(), view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
     found["scene of the same"] = picture(view)
     same.Visibility = 0
-    far = simple.Wavelet(WholeExtent=[-12, 12, -12, 12, 20, 44], Center=[0, 0, 32])
+    far = simple.Wavelet(WholeExtent=[-12, 12, -12, 12, 34, 58], Center=[0, 0, 46])
     show_volume(far, view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
     found["scene of others"] = picture(view)
     display.Opacity = 0.5
     found["scene, blended"] = picture(view)
-    same.Visibility = 1
-    found["scene of the same, blended"] = picture(view)
-    same.Visibility = 0
     display.Opacity = 1.0
     ball = simple.Show(simple.Sphere(Center=(10, 8, 14), Radius=14, ThetaResolution=40,
                                      PhiResolution=40), view, "GeometryRepresentation")
