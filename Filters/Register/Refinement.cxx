@@ -187,9 +187,10 @@ void Refinement::reportOverlap()
 }
 
 // A search that began at a random position may still be far from the best result.
-bool Refinement::isBehind() const
+const Refinement::Result* Refinement::better() const
 {
-  return this->Best && (!this->Step || this->Best->cost <= this->State.known.cost);
+  return this->Best && (!this->Step || this->Best->cost <= this->State.known.cost) ? &*this->Best
+                                                                                   : nullptr;
 }
 
 void Refinement::report()
@@ -200,10 +201,10 @@ void Refinement::report()
     static_cast<double>(this->StepsOfLevel) / this->Settings.mostStepsOf(this->level());
   this->Shown = this->State.progress;
   this->Shown.done = this->Shown.isFinished ? 1.0 : (this->Index + part / positions) / levels;
-  if (this->isBehind())
+  if (const Result* best = this->better())
   {
-    this->Shown.cost = this->Best->cost;
-    this->Shown.overlap = this->Best->overlap;
+    this->Shown.cost = best->cost;
+    this->Shown.overlap = best->overlap;
   }
 }
 

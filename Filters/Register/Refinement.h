@@ -47,7 +47,8 @@ public:
    */
   const Lattice& lattice() const
   {
-    return this->isBehind() ? this->Best->lattice : this->State.bent;
+    const Result* best = this->better();
+    return best ? best->lattice : this->State.bent;
   }
 
   /** Hands the volumes back, once it is finished. */
@@ -75,7 +76,16 @@ private:
   void begin(const RigidPosition& position);
   void reportOverlap();
   void report();
-  bool isBehind() const;
+
+  // What this level found from another position than the present one.
+  struct Result
+  {
+    Lattice lattice;
+    double cost = 0.0;
+    double overlap = 0.0;
+  };
+  // What is better than the present position, or null.
+  const Result* better() const;
 
   RegisteredPair Pair;
   RefinementSettings Settings;
@@ -93,13 +103,6 @@ private:
   std::vector<RigidPosition> Found;       // on this level
   std::unique_ptr<RefinementStep> Step;
 
-  // What this level found from another position than the present one.
-  struct Result
-  {
-    Lattice lattice;
-    double cost = 0.0;
-    double overlap = 0.0;
-  };
   std::optional<Result> Best;
   RefinementProgress Shown; // of lattice()
 };

@@ -154,7 +154,8 @@ def undo_at_once():
     hand.shortcut("z", hand.CONTROL)
     hand.wait()
     has(*had)
-    assert undo_labels() == undo and redo_labels()[:1] == ["Stamp: pull"], undo_labels()
+    assert undo_labels() == undo and redo_labels()[:1] == ["Stamp: pull"], (
+        undo, undo_labels(), redo_labels())
     edit("Redo", *had, brainshift.STAMP)
     assert math.isclose(amount(strokes()[-1]), 2.0, rel_tol=1e-9), strokes()
     edit("Undo", *had)
