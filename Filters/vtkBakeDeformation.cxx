@@ -149,7 +149,7 @@ struct vtkBakeDeformation::Work
   BakedVolume baked;
   std::vector<Extent> blocks{};
   std::optional<LowestValues> lowest{}; // of the whole input
-  bool isWhole = false;               // whether the input is
+  bool isWhole = false;                 // whether the input is
   bool isStopped = false;
 };
 
