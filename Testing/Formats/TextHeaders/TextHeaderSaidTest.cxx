@@ -205,9 +205,9 @@ TEST(TextHeaderSaid, PicturesOfATrackedProbeAreNoVolume)
 TEST(TextHeaderSaid, BytesBesideTheNumbersOfAnotherFile)
 {
   const std::string header = "NRRD0005\ntype: uchar\nencoding: raw\ndimension: 3\nsizes: 2 2 2\n" +
-    Placed + "data file: surplus.raw\n";
+    Placed + "data file: " + scratchFile("surplus.raw") + "\n";
   writeFile("surplus.raw", Numbers + "1234");
-  expectSaid<NRRD>("surplus.nhdr", header, "leaves out 4 bytes at the end of surplus.raw");
+  expectSaid<NRRD>("surplus.nhdr", header, "leaves out 4 bytes at the end of ");
   EXPECT_EQ(saidOf<NRRD>("surplus.nhdr", header + "byte skip: 4\n"), "");
   EXPECT_EQ(saidOf<NRRD>("surplus.nhdr", header + "byte skip: -1\n"), "");
   const auto bytesOf = [](const std::vector<unsigned char>& values) {
