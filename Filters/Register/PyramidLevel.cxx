@@ -379,9 +379,14 @@ double ComparedRegion::finestSpacingMm(const RefinementLevel& level, const Grid&
 
 Grid ComparedRegion::grid(const RefinementLevel& level) const
 {
-  const Grid grid = coarseGrid(this->Rest, this->spacingMm(level));
+  Grid grid = coarseGrid(this->Rest, this->spacingMm(level));
   if (this->Counting)
   {
+    if (glm::any(glm::greaterThan(this->Counting->front(), this->Counting->back())))
+    {
+      grid.dimensions = glm::ivec3(2); // nothing counts
+      return grid;
+    }
     const auto points = [&](const glm::dvec3& mm) { return mm / grid.spacing; };
     const Box box{ points(this->Counting->front()), points(this->Counting->back()) };
     return croppedTo(grid, box, glm::dvec3(MarginPoints));
