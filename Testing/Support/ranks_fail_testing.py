@@ -131,7 +131,7 @@ def answer_file(found, folder):
     trace = simple.TraceDistance(
         Input=points_of(PLACES), Deformation=simple.FreeFormDeformation(Input=reader),
         SurfaceBy="Threshold", Threshold=200.0)
-    with noting(found, "file"):
+    with noting(found, "of a file"):
         found["file counts"] = numpy.array([count_of(trace)])
 
 

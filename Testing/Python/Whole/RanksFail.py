@@ -49,7 +49,7 @@ def assert_picture(found, expected, name):
 
 def test_what_one_rank_lacks_ends_on_all():
     found = asked("trace", "fit", "electrodes", "file")
-    for name in ("trace input", "fit input", "electrodes", "file"):
+    for name in ("trace input", "fit input", "electrodes", "of a file"):
         assert_says_once(found[name], "MPI rank 1 of 2: an input failed, and that rank reported")
     assert_says_once(found["trace cortex"], "MPI rank 1 of 2: The volume has no point array")
     assert_says_once(found["fit volume"], "MPI rank 1 of 2: The volume's spacing is 1e+30")
