@@ -236,6 +236,16 @@ void updateExtent(vtkInformation* image, const Extent& extent)
   image->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }
 
+void requirePart(vtkImageData* input, const Extent& part)
+{
+  const Extent held = input ? extentOf(input) : Extent{ 0, -1, 0, -1, 0, -1 };
+  if (!holds(held, part))
+  {
+    throw Problem("The input holds " + sidesOf(held) + " points; it must hold the " +
+      sidesOf(part) + " points that it was asked for. It failed, or it was stopped");
+  }
+}
+
 void bringPart(vtkInformation* input, const Extent& part)
 {
   vtkExecutive* producer = nullptr;
@@ -243,12 +253,6 @@ void bringPart(vtkInformation* input, const Extent& part)
   vtkExecutive::PRODUCER()->Get(input, producer, port);
   updateExtent(input, part);
   const bool done = producer && producer->Update(port) != 0;
-  vtkImageData* image = vtkImageData::GetData(input);
-  if (!done || !image || !holds(extentOf(image), part))
-  {
-    throw Problem("The input holds " +
-      sidesOf(image ? extentOf(image) : Extent{ 0, -1, 0, -1, 0, -1 }) +
-      " points; it must hold the " + sidesOf(part) + " points that it was asked for");
-  }
+  requirePart(done ? vtkImageData::GetData(input) : nullptr, part);
 }
 }

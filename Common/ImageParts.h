@@ -82,6 +82,9 @@ VTKBRAINSHIFTCOMMON_EXPORT bool isBestAskedWhole(vtkInformation* image, double l
 /** Asks for an extent of an image, in one piece. Call it in RequestUpdateExtent. */
 VTKBRAINSHIFTCOMMON_EXPORT void updateExtent(vtkInformation* image, const Extent& extent);
 
+/** Throws a Problem if an input has not all of the part that it was asked for. */
+VTKBRAINSHIFTCOMMON_EXPORT void requirePart(vtkImageData* input, const Extent& part);
+
 /**
  * Brings another part of an input, in RequestData: the data object of the input has it then, and
  * not what it had before. Throws a Problem if the part does not come.

@@ -75,15 +75,7 @@ std::vector<Piece> piecesOf(const int whole[6], double bytesOfVoxel, double limi
 // The numbers of a piece in an image that may have more.
 VoxelBox boxOf(vtkImageData* image, const OutgoingVolume& volume, const Piece& piece)
 {
-  int extent[6];
-  image->GetExtent(extent);
-  for (std::size_t end = 0; end < 6; end += 2)
-  {
-    if (piece.extent[end] < extent[end] || piece.extent[end + 1] > extent[end + 1])
-    {
-      throw Problem("The input did not give the voxels that were asked for");
-    }
-  }
+  const Extent extent = extentOf(image);
   const Size3 has(extent[1] - extent[0] + 1, extent[3] - extent[2] + 1, extent[5] - extent[4] + 1);
   const std::int64_t components = volume.components();
   VoxelBox box;
@@ -206,9 +198,10 @@ bool vtkOMEZarrWriter::TakePiece()
   {
     return ++this->Work->next < this->Work->pieces.size();
   }
+  const Piece& piece = this->Work->pieces[this->Work->next];
+  requirePart(image, piece.extent);
   OutgoingVolume volume;
   this->TakeVoxels(volume);
-  const Piece& piece = this->Work->pieces[this->Work->next];
   const VoxelBox box = boxOf(image, volume, piece);
   if (!this->Work->store)
   {

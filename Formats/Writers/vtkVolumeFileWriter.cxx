@@ -125,10 +125,7 @@ void vtkVolumeFileWriter::WriteImage()
   auto* image = vtkImageData::SafeDownCast(this->GetInput());
   vtkInformation* input = this->GetInputInformation(0, 0);
   bool inLayers = this->IsInLayers();
-  if (!inLayers)
-  {
-    requireWhole(image, input);
-  }
+  requirePart(image, inLayers ? this->Layers().front() : wholeExtentOf(input));
   throwIfAny(this->FileName.empty() ? "The name of the file to write is missing" : "");
   const auto world = static_cast<WorldAxes>(this->World);
   OutgoingVolume volume;
