@@ -233,7 +233,7 @@ def answer_four_views(found):
 
 def answer_whole(found):
     """What the first rank draws alone."""
-    view = see(distance=20.0)
+    view = see(distance=6.0)
     display = show(simple.Wavelet(WholeExtent=[0, 1, 0, 1, 0, 1]), view, position=(0.5,) * 3)
     drawn(found, "few voxels", view, display)
     simple.Delete(view)
