@@ -83,9 +83,7 @@ vtkDeformedSlicesMapper::~vtkDeformedSlicesMapper() = default;
 void vtkDeformedSlicesMapper::UpdateDeformation(vtkImageData* image)
 {
   std::string problem;
-  const std::string thrown = thrownBy([&] { this->Internal->Deformation.update(image, problem); });
-  problem = thrown.empty() ? problem : "The deformation " + thrown;
-  if (!problem.empty())
+  if (!this->Internal->Deformation.update(image, problem))
   {
     vtkErrorMacro(<< problem << ". The slices are drawn undeformed.");
   }
@@ -102,14 +100,15 @@ double* vtkDeformedSlicesMapper::GetBounds()
   }
   else if (image)
   {
-    this->WidenByTissue(image, this->Bounds);
+    this->UpdateDeformation(image);
+    this->Internal->Deformation.widen(this->Bounds);
   }
   return this->Bounds;
 }
 
 void vtkDeformedSlicesMapper::WidenByTissue(vtkImageData* image, double bounds[6])
 {
-  this->UpdateDeformation(image);
+  this->Internal->Deformation.require(image);
   this->Internal->Deformation.widen(bounds);
 }
 
@@ -119,7 +118,7 @@ const Lattice* vtkDeformedSlicesMapper::GetLattice(vtkImageData* image)
   {
     return nullptr;
   }
-  this->UpdateDeformation(image);
+  this->Internal->Deformation.require(image);
   const SceneDeformation& deformation = this->Internal->Deformation;
   return deformation.deformed ? &deformation.lattice : nullptr;
 }
