@@ -92,7 +92,8 @@ def test_another_halo_tries_parts_of_all_volumes():
     refused, again = found["bytes refused and with another halo"]
     assert_says_once(found["halo"], "The first rank draws the whole volume")
     print(refused, again, flush=True)
-    assert (again < 0.8 * refused).all(), (refused, again)
+    # One volume is all in the box of the first rank, the other one in that of the second.
+    assert again.sum() < 0.8 * refused.sum(), (refused, again)
 
 
 def test_steps_of_parts_are_those_of_the_whole():
