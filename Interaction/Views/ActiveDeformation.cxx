@@ -218,11 +218,11 @@ bool isMoved(pqDataRepresentation* display)
 {
   const auto differs = [display](const char* name, double usual) {
     const std::vector<double> numbers =
-      vtkSMPropertyHelper(display->getProxy(), name, /*quiet*/ true).GetDoubleArray();
+      vtkSMPropertyHelper(display->getProxy(), name).GetDoubleArray();
     return std::any_of(
       numbers.begin(), numbers.end(), [usual](double number) { return number != usual; });
   };
-  return differs("Position", 0.0) || differs("Orientation", 0.0) || differs("Scale", 1.0);
+  return differs("Translation", 0.0) || differs("Orientation", 0.0) || differs("Scale", 1.0);
 }
 
 bool showsSlices(pqDataRepresentation* display)
