@@ -526,8 +526,8 @@ bool RefineEditor::dependsOn(vtkObject* object, const char* property) const
     isLatticeSetting(this->Source->getProxy(), property);
 }
 
-// The result would not fit to what was changed, so base and strokes come back. Whoever changes a
-// property sends them, too: before and after are one undo step of theirs.
+// The result would not fit to what was changed, so base and strokes come back, before the change
+// that is under way is sent: undo of it finds them.
 void RefineEditor::followChange(vtkObject* object, const char* property)
 {
   if (object != this->Source->getProxy())
@@ -550,6 +550,11 @@ void RefineEditor::followChange(vtkObject* object, const char* property)
     const QScopedValueRollback<bool> writing(this->Writing, true);
     setNumbers(deformation, "Strokes", this->Strokes);
     std::strcmp(property, "Lattice") == 0 ? void() : this->putBaseBack();
+    {
+      SCOPED_UNDO_EXCLUDE(); // or undo of the change would bring what was under way
+      deformation->UpdateProperty("Strokes");
+      deformation->UpdateProperty("Lattice");
+    }
     QTimer::singleShot(0, this->Source, [deformation] {
       SCOPED_UNDO_EXCLUDE();
       deformation->UpdateVTKObjects(); // what sent one property alone
