@@ -552,7 +552,8 @@ def test_spm_positions_on_request():
         file = warp("y_itk.nii", vectors, affine, 1007, 5, called=name)
         refuses(f"1007 with the name '{name}'", file, program="SPM")
     refuses("intent 1006", warp("y_other.nii", vectors, affine, 1006, 5), program="SPM")
-    for flow in (vectors, numpy.zeros(vectors.shape)):
+    velocities = numpy.stack((numpy.sin(x), numpy.cos(z), numpy.sin(y)), axis=-1)
+    for flow in (velocities, numpy.zeros(vectors.shape)):
         refuses("do not grow along its voxels", warp("u_flow.nii", flow, affine, 0, 5),
                 program="SPM")
     refuses("SPM writes none as text", write("sixteen.txt", numbers(numpy.eye(4))), program="spm")
