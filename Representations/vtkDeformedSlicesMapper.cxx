@@ -293,11 +293,12 @@ bool vtkDeformedSlicesMapper::IsCubic(const TissueRequest& tissue) const
   return this->Interpolation == Cubic && !CategoryScalars::areWanted(tissue.property);
 }
 
-// Finer voxels where the slices are, as far as they are there. A selection asks for none.
+// Finer voxels where the slices are, as far as they are there. A selection asks for none, and
+// Nearest shows the voxels that were read: a brick may round to another voxel between two of them.
 void vtkDeformedSlicesMapper::AddBricks(GpuTask& gpu, const DrawnVolume& seen, Device& device,
   const TissueRequest& tissue, SliceScene& scene)
 {
-  if (scene.selecting)
+  if (scene.selecting || tissue.nearest)
   {
     return;
   }
