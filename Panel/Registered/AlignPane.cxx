@@ -108,6 +108,8 @@ void AlignPane::report()
   const AlignFigures& figures = this->Editor->figures();
   QString report;
   QString warning = this->Editor->problem();
+  const QString ended =
+    this->Editor->state() == AlignEditor::State::Kept ? tr("Stopped") : tr("Finished");
   switch (this->Editor->state())
   {
     case AlignEditor::State::Running:
@@ -123,12 +125,10 @@ void AlignPane::report()
       }
       if (this->Editor->hasChangedSince())
       {
-        report = changedText(figures.lines);
+        report = changedText(ended, figures.lines);
         break;
       }
-      report = alignResult(
-        this->Editor->state() == AlignEditor::State::Kept ? tr("Stopped") : tr("Finished"),
-        figures);
+      report = alignResult(ended, figures);
       warning = figures.warning;
       break;
     case AlignEditor::State::Idle:

@@ -62,14 +62,11 @@ QString trustText(const QString& trust)
                            : CostPlot::tr("The result was not checked.");
 }
 
-QString changedText(int steps)
+QString changedText(const QString& ended, int steps)
 {
-  return steps > 0
-    ? CostPlot::tr(
-        "It ended after %1 steps. The deformation or its reference has changed since, so "
-        "the figures no longer hold.")
-        .arg(steps)
-    : QString();
+  return CostPlot::tr("%1 after %2 steps. The deformation or its reference has changed since, so "
+                      "the figures no longer hold.")
+    .arg(ended, QString::number(steps));
 }
 
 QString checkingText()

@@ -24,8 +24,9 @@ QLabel* makeText(const char* name);
 /// A sentence about the trust in a result (AlignFigures::trust).
 QString trustText(const QString& trust);
 
-/// What is said of a result if something that it depends on has changed since; empty without steps.
-QString changedText(int steps);
+/// What is said of a result if something that it depends on has changed since. `ended`: how, as the
+/// beginning of a sentence.
+QString changedText(const QString& ended, int steps);
 
 /// A sentence while the result is checked.
 QString checkingText();

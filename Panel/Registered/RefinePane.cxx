@@ -398,6 +398,8 @@ void RefinePane::report()
   const RefineFigures& figures = this->Editor->figures();
   QString report;
   QString warning = this->Editor->problem();
+  const QString ended =
+    this->Editor->state() == RefineEditor::State::Kept ? tr("Stopped") : tr("Finished");
   switch (this->Editor->state())
   {
     case RefineEditor::State::Running:
@@ -406,18 +408,18 @@ void RefinePane::report()
       break;
     case RefineEditor::State::Kept:
     case RefineEditor::State::Finished:
-      report = figures.steps > 0
-        ? refineResult(
-            this->Editor->state() == RefineEditor::State::Kept ? tr("Stopped") : tr("Finished"),
-            figures)
-        : tr("Stopped before the first step; nothing has changed.");
-      if (this->Editor->hasChangedSince())
+      if (figures.steps == 0)
       {
-        report = changedText(figures.steps);
+        report = tr("Stopped before the first step; nothing has changed.");
         break;
       }
-      warning += (warning.isEmpty() || figures.steps == 0 ? "" : " ") +
-        (figures.steps > 0 ? refineWarning(figures) : QString());
+      if (this->Editor->hasChangedSince())
+      {
+        report = changedText(ended, figures.steps);
+        break;
+      }
+      report = refineResult(ended, figures);
+      warning += (warning.isEmpty() ? "" : " ") + refineWarning(figures);
       break;
     case RefineEditor::State::Idle:
       break;

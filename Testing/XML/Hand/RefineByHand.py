@@ -397,7 +397,7 @@ def a_hand_comes_first():
     hand.take(hand.NONE)
     # The stroke follows what was reached.
     assert undo_labels()[:2] == ["Soft stroke", "Refine"], undo_labels()
-    assert said().startswith("It ended") and "changed since" in said(), said()
+    assert said().startswith("Stopped") and "changed since" in said(), said()
     assert len(window.strokes()) == 1 and len(lattices()) == 1, window.strokes()
 
 
@@ -410,7 +410,7 @@ def a_pull_comes_first():
     hand.drag(middle, [middle[0] + 25, middle[1]])
     hand.take(hand.NONE)
     assert undo_labels()[:2] == ["Pull tissue", "Refine"], undo_labels()
-    assert said().startswith("It ended") and "changed since" in said(), said()
+    assert said().startswith("Stopped") and "changed since" in said(), said()
     fit = deformation().Lattice
     assert fit.Base and len(lattices()) == 1 and not list(deformation().Strokes), lattices()
     window.action("Undo")
