@@ -208,10 +208,11 @@ void ToolCarrier::reportMoved()
   pqDataRepresentation* display =
     this->tool() ? bentDisplay(this->Deformation, this->View) : nullptr;
   const bool moved = display && isMoved(display);
-  if (moved != this->SaysMoved)
+  ToolSettings* settings = ToolSettings::instance();
+  if (moved != this->SaysMoved || (moved && settings->request().isEmpty()))
   {
     this->SaysMoved = moved;
-    ToolSettings::instance()->setRequest(moved
+    settings->setRequest(moved
         ? QCoreApplication::translate("BrainShift",
             "The display of %1 has a Translation, an Orientation or a Scale, so no tool works "
             "here. Set Translation and Orientation to 0 and Scale to 1.")

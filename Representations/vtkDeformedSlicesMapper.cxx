@@ -293,18 +293,18 @@ bool vtkDeformedSlicesMapper::IsCubic(const TissueRequest& tissue) const
   return this->Interpolation == Cubic && !CategoryScalars::areWanted(tissue.property);
 }
 
-// Finer voxels where the slices are, as far as they are there. A selection asks for none, and
-// Nearest shows the voxels that were read: a brick may round to another voxel between two of them.
+// Finer voxels where the slices are, as far as they are there. A selection asks for none.
 void vtkDeformedSlicesMapper::AddBricks(GpuTask& gpu, const DrawnVolume& seen, Device& device,
   const TissueRequest& tissue, SliceScene& scene)
 {
-  if (scene.selecting || tissue.nearest)
+  if (scene.selecting)
   {
     return;
   }
   BrickView view = brickViewOf(seen, tissue.values, this->NeedOf(tissue), this->MemoryLimit);
   glm::ivec2 origin;
   seen.renderer->GetTiledSizeAndOrigin(&view.pixels.x, &view.pixels.y, &origin.x, &origin.y);
+  view.leaveRoomFor(SliceBricks::bytesOf(view.pixels));
   PictureCapture& capture = PictureCapture::current();
   std::optional<SliceBricks::Clock::time_point> end;
   if (this->WaitsForDetail && !gpu.moving)

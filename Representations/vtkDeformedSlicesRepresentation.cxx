@@ -223,7 +223,7 @@ void vtkDeformedSlicesRepresentation::SetComparison(int comparison)
 {
   if (comparison != this->GetDeformedSlicesMapper()->GetComparison())
   {
-    this->MarkModified(); // MPI ranks may need other voxels
+    this->MarkModifiedOnRanks();
   }
   this->GetDeformedSlicesMapper()->SetComparison(comparison);
 }
@@ -252,7 +252,7 @@ void vtkDeformedSlicesRepresentation::SetSimilarityWindow(double mm)
 {
   if (mm != this->GetDeformedSlicesMapper()->GetSimilarityWindow())
   {
-    this->MarkModified(); // MPI ranks may need other voxels
+    this->MarkModifiedOnRanks();
   }
   this->GetDeformedSlicesMapper()->SetSimilarityWindow(mm);
 }

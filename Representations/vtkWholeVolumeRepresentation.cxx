@@ -604,6 +604,14 @@ void vtkWholeVolumeRepresentation::SetLegend(const char* text)
   this->Legend->SetVisibility(this->GetVisibility() && text && *text);
 }
 
+void vtkWholeVolumeRepresentation::MarkModifiedOnRanks()
+{
+  if (mayHaveRanks())
+  {
+    this->MarkModified();
+  }
+}
+
 bool vtkWholeVolumeRepresentation::CarriesComparison() const
 {
   vtkDataSet* drawn = this->VolumeMapper->GetDataSetInput();

@@ -76,6 +76,9 @@ protected:
   bool RemoveFromView(vtkView* view) override;
   void UpdateMapperParameters() override;
 
+  /** Marks the volume modified if several MPI ranks may draw: they may need other voxels then. */
+  void MarkModifiedOnRanks();
+
   /** Whether the data carries a reference that is shown beside the volume. */
   bool CarriesComparison() const;
 

@@ -256,6 +256,10 @@ double explainedByVoxels(const Warp& warp)
       all += glm::dot(number, number);
     }
   }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    squares[axis][axis] += squares[axis][axis] == 0.0 ? 1.0 : 0.0; // one voxel thick
+  }
   const double count = squares[3][3];
   const double spread = all - glm::dot(sum, sum) / count;
   if (!(count > 0.0) || !(spread > 0.0) || glm::determinant(squares) == 0.0)

@@ -271,9 +271,9 @@ bool AlignEditor::dependsOn(vtkObject* object, const char* property) const
     return !this->isActive() && changed && !changed->GetInformationOnly();
   }
   const StrokeEditor* strokes = StrokeEditor::of(vtkSMSourceProxy::SafeDownCast(proxy));
-  if (std::strcmp(property, "Strength") == 0 && strokes && strokes->showsBefore())
+  if (strokes && strokes->bringsBack(property))
   {
-    return false; // it comes back
+    return false;
   }
   return isAmong(DeformationDependencies, property) || isLatticeSetting(proxy, property);
 }

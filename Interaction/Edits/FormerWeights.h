@@ -15,7 +15,8 @@ namespace brainshift
 class FormerWeights
 {
 public:
-  /// Switches a pair on or off. Its weight is 1 if none is known.
+  /// Switches a pair on or off. Its weight is 1 if none is known. What is switched on may be undone,
+  /// so its weight stays known.
   void setOn(PointPair& pair, bool on)
   {
     if (on == isOn(pair))
@@ -25,11 +26,11 @@ public:
     const auto known = std::find_if(this->Off.begin(), this->Off.end(),
       [&pair](const PointPair& off) { return off.rest == pair.rest; });
     const double weight = known == this->Off.end() ? 1.0 : known->weight;
-    if (known != this->Off.end())
+    if (!on && known != this->Off.end())
     {
-      this->Off.erase(known);
+      *known = pair;
     }
-    if (!on)
+    else if (!on)
     {
       this->Off.push_back(pair);
     }

@@ -46,6 +46,12 @@ void setInput(vtkSMProxy* filter, const char* name, pqPipelineSource* source)
   }
 }
 
+void setLattice(vtkSMProxy* deformation, vtkSMProxy* lattice)
+{
+  vtkSMPropertyHelper property(deformation, "Lattice");
+  lattice ? property.Set(lattice) : property.RemoveAllValues();
+}
+
 // The reason against a refinement that the client knows: a sentence; empty if there is none.
 QString whyNot(pqPipelineSource* deformation, const RefineSettings& settings)
 {
@@ -203,7 +209,8 @@ void RefineEditor::followReference(const QString& happened)
     if (this->isActive())
     {
       this->stop();
-      this->Problem = tr("%1. The result so far is kept.").arg(happened);
+      this->Problem = this->Now == State::Kept ? tr("%1. The result so far is kept.").arg(happened)
+                                               : tr("%1. %2").arg(happened, this->Problem);
       Q_EMIT this->changed();
     }
   });
@@ -466,16 +473,8 @@ void RefineEditor::putBack()
 
 void RefineEditor::putBaseBack()
 {
-  vtkSMPropertyHelper property(this->Source->getProxy(), "Lattice");
-  pqServerManagerModel* model = serverManagerModel();
-  if (this->Base && model->findItem<pqPipelineSource*>(this->Base))
-  {
-    property.Set(this->Base);
-  }
-  else
-  {
-    property.RemoveAllValues();
-  }
+  const bool isThere = this->Base && serverManagerModel()->findItem<pqPipelineSource*>(this->Base);
+  setLattice(this->Source->getProxy(), isThere ? this->Base.GetPointer() : nullptr);
 }
 
 // Later: ParaView is iterating over its sources now, or undo is running.
@@ -511,9 +510,9 @@ void RefineEditor::abandon(const QString& problem)
 
 bool RefineEditor::dependsOn(vtkObject* object, const char* property) const
 {
-  if (std::strcmp(property, "Strength") == 0 && StrokeEditor::of(this->Source)->showsBefore())
+  if (object == this->Source->getProxy() && StrokeEditor::of(this->Source)->bringsBack(property))
   {
-    return false; // it comes back
+    return false;
   }
   const auto isChanged = [property](const char* name) { return std::strcmp(property, name) == 0; };
   if (object != this->Source->getProxy())
@@ -549,11 +548,16 @@ void RefineEditor::followChange(vtkObject* object, const char* property)
     problem += tr(" Its result is discarded.");
     const QScopedValueRollback<bool> writing(this->Writing, true);
     setNumbers(deformation, "Strokes", this->Strokes);
-    std::strcmp(property, "Lattice") == 0 ? void() : this->putBaseBack();
+    const vtkSmartPointer<vtkSMProxy> lattice = this->lattice();
+    this->putBaseBack();
     {
       SCOPED_UNDO_EXCLUDE(); // or undo of the change would bring what was under way
       deformation->UpdateProperty("Strokes");
       deformation->UpdateProperty("Lattice");
+    }
+    if (std::strcmp(property, "Lattice") == 0)
+    {
+      setLattice(deformation, lattice); // the change itself, to be sent by who made it
     }
     QTimer::singleShot(0, this->Source, [deformation] {
       SCOPED_UNDO_EXCLUDE();

@@ -15,9 +15,11 @@
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
 
+#include <QScopedValueRollback>
 #include <QSignalBlocker>
 
 #include <cstddef>
+#include <cstring>
 
 namespace brainshift
 {
@@ -183,14 +185,22 @@ void StrokeEditor::walkThrough(const std::function<void()>& measure)
   {
     return; // or they are numbers that are no strokes: they are not lost
   }
+  Q_EMIT this->aboutToEdit(); // no registration goes on from strokes that come and go
   SCOPED_UNDO_EXCLUDE();
   const QSignalBlocker silent(this);
+  const QScopedValueRollback<bool> walking(this->Walking, true);
   for (std::size_t count = 0; count <= all.size(); ++count)
   {
     this->write(Strokes(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)));
     proxy->UpdateVTKObjects();
     measure();
   }
+}
+
+bool StrokeEditor::bringsBack(const char* property) const
+{
+  return (this->Walking && std::strcmp(property, "Strokes") == 0) ||
+    (this->ShowsBefore && std::strcmp(property, "Strength") == 0);
 }
 
 void StrokeEditor::showBefore(bool on)

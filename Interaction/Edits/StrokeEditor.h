@@ -63,6 +63,10 @@ public:
   /// draws nothing, and the undo stack sees nothing.
   void walkThrough(const std::function<void()>& measure);
 
+  /// Whether a property is under way to what it was: Strokes while they are walked through, Strength
+  /// while the volume is shown as loaded.
+  bool bringsBack(const char* property) const;
+
   /// On: shows the volume as loaded. Off: restores Strength. The undo stack sees neither.
   void showBefore(bool on);
   bool showsBefore() const { return this->ShowsBefore; }
@@ -107,6 +111,7 @@ private:
   bool Editing = false;
   bool Writing = false; ///< This editor changes the property right now.
   bool ShowsBefore = false;
+  bool Walking = false; ///< walkThrough() is under way.
   int TimesBefore = 0;
   bool ChangesStrength = false;
   double StrengthBefore = 1.0; ///< During a drag of Strength.

@@ -23,6 +23,7 @@ namespace
 constexpr double BytesInMiB = 1048576.0;
 constexpr std::int64_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
 constexpr double UsualLimitMiB = 1024.0; // where the user sets none
+constexpr double LeastMiB = 1.0;
 constexpr int LeastSlots = 8;
 constexpr std::size_t BricksInBatch = 512;      // read side by side, whichever is more urgent
 constexpr double MostBricks = 16777216.0;       // rays write their numbers as floats
@@ -109,11 +110,8 @@ BrickView brickViewOf(
   // ParaView saves the eyes one by one, and composes them.
   view.isOfBoth = isStereo && type != VTK_STEREO_LEFT && type != VTK_STEREO_RIGHT;
   view.eye = isStereo && !isLeftEye(drawn) ? 1 : 0;
-  if (limitMiB > 0.0)
-  {
-    constexpr double leastMiB = 1.0;
-    view.limitMiB = std::max(limitMiB - static_cast<double>(need.total()) / BytesInMiB, leastMiB);
-  }
+  view.limitMiB = limitMiB;
+  view.leaveRoomFor(need.total());
   view.setMiB = limitMiB;
   return view;
 }
@@ -147,12 +145,21 @@ std::optional<FineGrid> levelFor(const DrawnValues& values, const std::vector<Gr
   return found;
 }
 
-// Other choices are drawn from the volume's own level alone.
+void BrickView::leaveRoomFor(std::int64_t bytes)
+{
+  if (this->limitMiB > 0.0)
+  {
+    this->limitMiB = std::max(this->limitMiB - static_cast<double>(bytes) / BytesInMiB, LeastMiB);
+  }
+}
+
+// Other choices are drawn from the volume's own level alone. Nearest does not stream: between two
+// voxels, a brick may round to another one than the volume does.
 bool StreamedBricks::accepts(const BrickView& view, const TissueRequest& tissue)
 {
   const DrawnComponents drawn = drawnComponents(tissue.property, tissue.values.scalars);
-  const bool isBlended = tissue.blend == Blend::Composite && !tissue.nearest;
-  return (view.ofSlices || isBlended) && tissue.opacity == Opacity::Scalar && !tissue.compared &&
+  const bool isBlended = view.ofSlices || tissue.blend == Blend::Composite;
+  return isBlended && !tissue.nearest && tissue.opacity == Opacity::Scalar && !tissue.compared &&
     !tissue.labels && !tissue.segment.segmentation.labels && drawn.coloring == Coloring::Mapped &&
     drawn.scalar >= 0 && !CategoryScalars::areWanted(tissue.property);
 }
@@ -162,7 +169,7 @@ bool StreamedBricks::accepts(const BrickView& view, const TissueRequest& tissue)
 bool StreamedBricks::hasRoomFor(const BrickView& view) const
 {
   if (view.setMiB != this->SetMiB || // which a message may have asked for
-    view.mostBricks > this->MostBricks)
+    this->Growth * view.mostBricks > this->MostBricks)
   {
     return false;
   }
@@ -203,7 +210,7 @@ void StreamedBricks::chooseLevel(const BrickView& view, const TissueRequest& tis
     this->IsRefused = false;
     this->LimitMiB = view.limitMiB;
     this->SetMiB = view.setMiB;
-    this->MostBricks = view.mostBricks;
+    this->MostBricks = this->Growth * view.mostBricks;
     this->Level = level;
     this->Order = order;
     this->forgetBricks();
@@ -306,6 +313,7 @@ bool StreamedBricks::allocate(GpuTask& gpu)
         bricks.x, bricks.y, bricks.z, 4, VTK_UNSIGNED_CHAR, pages.data()) &&
       !takeOutOfMemory())
     {
+      this->IsCapped = slots == all && all < inLevel;
       return true;
     }
     takeOutOfMemory();
@@ -454,7 +462,13 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
   }
   this->Wanted = this->inOrder(pixels);
   this->Loader->order(this->Order, this->Wanted);
-  if (!this->Wanted.empty())
+  const bool grows = this->IsCapped && this->Full[this->Eye];
+  if (grows) // the next picture has room for twice as many
+  {
+    this->Growth *= 2;
+    this->Full[this->Eye] = false;
+  }
+  if (!this->Wanted.empty() || grows)
   {
     this->Quiet[this->Eye] = 0;
     return;

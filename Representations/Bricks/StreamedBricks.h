@@ -30,7 +30,10 @@ struct BrickView
   /// Slices are drawn, not rays: a pixel reads one brick, and names it in the first picture.
   bool ofSlices = false;
   std::vector<glm::dvec3> corners; ///< Of what is drawn, texture coordinates; none: the volume's.
-  std::int64_t mostBricks = 0;     ///< More are never asked for; 0: unknown.
+  std::int64_t mostBricks = 0;     ///< More are seldom asked for; 0: unknown.
+
+  /// Takes so much from the limit, if there is one.
+  void leaveRoomFor(std::int64_t bytes);
 };
 
 /// The view of the camera that draws now. `need`: the memory of all else. `limitMiB`: of all
@@ -142,7 +145,9 @@ private:
   int Bytes = 4;                             // of a voxel
   double LimitMiB = 0.0;                     // see BrickView
   double SetMiB = 0.0;                       // see BrickView
-  std::int64_t MostBricks = 0;               // see BrickView
+  std::int64_t MostBricks = 0;               // see BrickView, times Growth
+  std::int64_t Growth = 1;                   // where a view sees more bricks than it says
+  bool IsCapped = false;                     // by MostBricks, and not by the memory
   bool IsRefused = false;                    // the memory for it
   vtkWeakPointer<vtkTextureObject> RangesOf; // whose ranges were widened
   std::map<int, Clock::time_point> Failed;   // bricks that cannot be read until then

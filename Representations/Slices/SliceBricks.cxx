@@ -64,13 +64,12 @@ void SliceBricks::update(GpuTask& gpu, BrickView view, const SliceTissue& tissue
     this->Bricks.upload(gpu, tissue.textures, scene.bricks);
     this->Bricks.finish(this->ask(gpu, scene, view.pixels));
   } while (!isLast && this->Bricks.waitForMore(*end));
-  if (scene.bricks.atlas)
-  {
-    const int filter =
-      tissue.request.nearest ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
-    scene.bricks.atlas->SetMinificationFilter(filter);
-    scene.bricks.atlas->SetMagnificationFilter(filter);
-  }
+}
+
+std::int64_t SliceBricks::bytesOf(const glm::ivec2& pixels)
+{
+  constexpr std::int64_t ofPixel = 2 * sizeof(float) + 4; // Numbers, and Depth with its padding
+  return ofPixel * pixels.x * pixels.y;
 }
 
 // Each pixel names the brick that it reads. While the picture moves, few pixels ask.

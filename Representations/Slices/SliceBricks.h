@@ -34,6 +34,9 @@ public:
   /// Nothing more is wanted until the next update.
   void rest() { this->Bricks.rest(); }
 
+  /// What the images that ask for bricks take, in a picture of so many pixels.
+  static std::int64_t bytesOf(const glm::ivec2& pixels);
+
   const StreamedBricks& bricks() const { return this->Bricks; }
 
   /// Those that are asked with; null: not in use.

@@ -10,8 +10,14 @@ void main()
   {
     discard;
   }
-  vec3 brick = brickOf(fineAt(rest));
+  vec3 fine = fineAt(rest);
+  vec3 brick = brickOf(fine);
+  vec4 page = pageOf(brick);
+  bool isThere = page.a >= 0.5;
+  if (isThere && !isNumber(textureLod(atlas, positionInAtlas(page, fine, brick), 0.0).r))
+  {
+    discard; // what is behind is seen
+  }
   float number = numberOf(brick);
-  gl_FragData[0] =
-    pageOf(brick).a < 0.5 ? vec4(number, -1.0, 0.0, 0.0) : vec4(-1.0, number, 0.0, 0.0);
+  gl_FragData[0] = isThere ? vec4(-1.0, number, 0.0, 0.0) : vec4(number, -1.0, 0.0, 0.0);
 }

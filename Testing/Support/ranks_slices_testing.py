@@ -11,12 +11,13 @@ from brainshift_testing import look, picture, show_volume, view_along
 from paraview import simple
 from ranks_testing import COLORS, OPACITIES, REFUSES, SIZE, TURN_DATA, TURN_INFORMATION, limit
 from slices_testing import PLANES, flat_view, show_slices
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 ALL = tuple(PLANES)
 SIDE = 30  # voxels from the middle
 MIDDLE = (0.0, 0.0, 0.0)
 POSITION = (3.0, -2.0, 5.0)
-PIXELS = [(x, y) for x in range(6, SIZE, 12) for y in range(6, SIZE, 12)]
+PIXELS = [(x, y) for x in range(6, SIZE, 24) for y in range(6, SIZE, 24)]
 #: What the first of several ranks reports then.
 REFUSALS = ["MPI rank 1 of {}: its part of the volume, .* The first rank draws the whole volume"]
 #: Why ranks draw no parts, as reported. Of slices alone there is no reason.
@@ -267,24 +268,23 @@ def answer_refusal(found):
     simple.Delete(view)
 
 
-def answers(folder=None):
-    """All answers by name: pictures [row, column, colour], facts, bytes."""
+#: What is asked where, each of several ranks: of 2 and of 4 what depends on their number.
+QUESTIONS = {
+    2: (answer_refusal, answer_planes, answer_filters, answer_comparisons, answer_whole),
+    4: (answer_refusal, answer_planes, answer_flat, answer_blended),
+    "server": (answer_scene, answer_askew, answer_four_views)}
+
+
+def answers(road):
+    """The answers of ranks by name: pictures [row, column, colour], facts, bytes."""
     found = {}
-    if folder:
-        answer_refusal(found)
-    answer_planes(found)
-    answer_filters(found)
-    answer_flat(found)
-    answer_blended(found)
-    answer_comparisons(found)
-    answer_scene(found)
-    answer_askew(found)
-    answer_four_views(found)
-    answer_whole(found)
+    for ask in QUESTIONS[road]:
+        ask(found)
     return found
 
 
 if __name__ == "__main__":
     simple.LoadPlugin(os.environ["BRAINSHIFT_PLUGIN"], remote=False, ns=simple.__dict__)
     simple.LoadPlugin(os.environ["BRAINSHIFT_PLUGIN"], remote=True, ns=simple.__dict__)
-    numpy.savez(sys.argv[1], **answers(sys.argv[2]))
+    ranks = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses()
+    numpy.savez(sys.argv[1], **answers(ranks))

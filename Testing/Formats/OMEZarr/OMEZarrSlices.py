@@ -20,6 +20,7 @@ from paraview import simple  # noqa: E402
 PLANES = ("Sagittal", "Coronal", "Axial")
 OBLIQUE = (-0.5, 0.7, -0.6)
 SIZE = 200
+CROSSING = 100  # pixels, where planes cross: either may be seen
 
 
 class Shown:
@@ -64,9 +65,8 @@ def test_as_drawn_directly():
         for planes in (("Sagittal",), ("Coronal",), ("Axial",), PLANES):
             compare_slices(f"{interpolation}, {' '.join(planes)}",
                            (reader(path, Level=0), blurred(), coarse(path)),
-                           most_pixels=100 if planes == PLANES else 0,  # where planes cross
-                           planes=planes,
-                           SliceInterpolation=interpolation)
+                           CROSSING if planes == PLANES else 0,
+                           planes=planes, SliceInterpolation=interpolation)
 
 
 def test_through_translucent_slices():
@@ -93,7 +93,8 @@ def test_bent():
     sources = [bent(source) for source in (
         reader(path, Level=0), volume(values, spacing=(2.0,) * 3), reader(path, Level=1))]
     for planes in (("Axial",), PLANES):
-        compare_slices(f"bent, {' '.join(planes)}", sources, planes=planes)
+        compare_slices(f"bent, {' '.join(planes)}", sources, CROSSING if planes == PLANES else 0,
+                       planes=planes)
     rest = Shown(reader(path, Level=0))
     assert differences(Shown(sources[2]).detail()[0], rest.image())[1] > 1000, "it must be bent"
 
@@ -128,6 +129,23 @@ def test_only_bricks_of_what_is_seen_come():
     near.close()
 
 
+def test_voxels_of_unequal_sides():
+    """Only along z are they longer than a pixel is wide, so a slice shows very many bricks."""
+    path = fresh("wide.zarr")
+    values = numpy.random.default_rng(4).integers(0, 900, (8, 800, 800)).astype("uint16")
+    datasets = []
+    for i, steps in enumerate(((1, 1, 1), (2, 4, 4))):
+        write_array(path, str(i), values[::steps[0], ::steps[1], ::steps[2]], 2, (4, 100, 100),
+                    codecs=zarr_files.OF_VERSION_2["zstd"])
+        datasets.append(level(str(i), [8 * steps[0], *steps[1:]], [0] * 3))
+    source = reader(describe(path, datasets, version=2), Level=1)
+    shown = Shown(source, ("Axial",), (400, 400, 8), 402.0)
+    shown.view.CameraFocalPoint, shown.view.CameraPosition = [400, 400, 8], [400, 400, 900]
+    state = shown.detail()[1]
+    assert state["gpuBricks"] == 25 * 25 and state["gpuBricksLackRoom"] == 0, state
+    shown.close()
+
+
 def test_a_slice_that_moves_asks_for_other_bricks():
     path = store()
     direct = Shown(reader(path, Level=0), ("Axial",))
@@ -156,7 +174,7 @@ def test_while_it_moves():
         shown.view.SMProxy.InteractiveRender()
         assert brainshift.gpu(shown.display)["gpuBricksWanted"] > 0 or z < 30.0
     image, _ = shown.detail()
-    assert differences(image, direct.image())[1] == 0
+    assert differences(image, direct.image())[1] <= CROSSING
     direct.close()
     shown.close()
 
@@ -191,7 +209,7 @@ def test_damaged():
         image = picture(shown.view)
     assert_says(said.text, "'0/1.2.1'", "level 1")
     assert said.text.count("cannot be read everywhere") == 1, said.text
-    assert differences(image, direct.image())[1] == 0
+    assert differences(image, direct.image())[1] <= CROSSING
     direct.close()
     shown.close()
 
@@ -250,7 +268,14 @@ def test_what_is_drawn_as_it_was_read():
     compared = simple.CompareVolumes(Input=coarse(path), Reference=blurred())
     made = simple.Calculator(Input=coarse(path), Function="2*Intensity",
                              ResultArrayName="Intensity")
-    for source, named in ((compared, {"SliceComparison": "Two colours"}), (made, {})):
+    nearest = coarse(path)
+    shown = Shown(nearest)  # finer voxels are on their way when it is chosen
+    shown.image()
+    shown.display.SliceInterpolation = "Nearest"
+    assert shown.detail()[1]["gpuLevel"] == -1
+    shown.close()
+    for source, named in ((compared, {"SliceComparison": "Two colours"}), (made, {}),
+                          (nearest, {"SliceInterpolation": "Nearest"})):
         shown = Shown(source, **named)
         _, state = shown.detail()
         assert state["gpuLevel"] == -1 and state["gpuBricksWanted"] == 0, state

@@ -175,6 +175,11 @@ void minc1(const Bytes& bytes)
   readVolume("MINC1", fileOf(bytes, ".mnc"));
 }
 
+void minc2(const Bytes& bytes)
+{
+  readVolume("MINC", fileOf(bytes, ".mnc"));
+}
+
 void nifti(const Bytes& bytes)
 {
   readVolume("NIFTI", fileOf(bytes, niftiEnding(bytes)));
@@ -269,6 +274,15 @@ void elastix(const Bytes& bytes)
 void fslwarp(const Bytes& bytes)
 {
   readWarp(bytes, false);
+}
+
+void hdf5(const Bytes& bytes)
+{
+  const std::string path = fileOf(bytes, ".h5");
+  if (isHDF5(path))
+  {
+    readRecords(readHDF5Records(path));
+  }
 }
 
 void itktext(const Bytes& bytes)

@@ -17,6 +17,7 @@ void dicom(const Bytes& bytes);
 void metaimage(const Bytes& bytes);
 void mgh(const Bytes& bytes);
 void minc1(const Bytes& bytes);
+void minc2(const Bytes& bytes); // libminc and HDF5 are not instrumented
 void nifti(const Bytes& bytes);
 void nrrd(const Bytes& bytes);
 void omezarr(const Bytes& bytes); // files of a folder (folderOf in CaseFile.cxx)
@@ -46,6 +47,7 @@ void trx(const Bytes& bytes); // files of a folder
 // Transforms. FSL's and SPM's warps are their own fixed and moving image.
 void elastix(const Bytes& bytes);
 void fslwarp(const Bytes& bytes);
+void hdf5(const Bytes& bytes); // nor is HDF5 here
 void itktext(const Bytes& bytes);
 void lta(const Bytes& bytes);
 void matlab(const Bytes& bytes);

@@ -29,7 +29,8 @@ MOST_FINDINGS = 5  # of a parser: those that follow are often the same
 
 #: The names of files that a parser begins with. All others take the ending of their name.
 SEEDS = {"dicom": r"\.dcm$", "like": r"\.dcm$", "metaimage": r"\.mha$", "metaimagefield": r"\.mha$",
-         "mgh": r"\.mgh$", "minc1": r"\.mnc$", "nifti": r"\.nii(\.gz)?$",
+         "mgh": r"\.mgh$", "minc1": r"\.mnc$", "minc2": r"\.mnc$",
+         "hdf5": r"\.h5$", "nifti": r"\.nii(\.gz)?$",
          "niftifield": r"\.nii(\.gz)?$", "fslwarp": r"\.nii(\.gz)?$", "spmwarp": r"\.nii(\.gz)?$",
          "nrrd": r"\.nrrd$", "nrrdfield": r"\.nrrd$", "omezarr": r"\.zarr\.files$",
          "trx": r"\.trx\.files$", "zip": r"\.(zip|trx|mrb)$", "deflated": r"\.deflated$",

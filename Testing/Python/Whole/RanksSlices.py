@@ -2,8 +2,6 @@
 # Proves that Deformed Slices on 2 and 4 MPI ranks of pvbatch, and on a pvserver of 2, are the
 # pictures of one process, with the tissue that it finds under its pixels, although each rank has
 # only the voxels of its part.
-import os
-
 import numpy
 from brainshift_testing import load_plugin, on_server, run_tests, scratch, server_finds_plugin
 
@@ -20,11 +18,17 @@ LARGEST_FACT = 1e-6  # mm, or a voxel's unit
 
 
 def expected_answers():
-    os.makedirs(FOLDER, exist_ok=True)
-    return ranks_slices_testing.answers(FOLDER)
+    """The answers of one process, and their names by question."""
+    answers, names = {}, {}
+    for question in dict.fromkeys(sum(ranks_slices_testing.QUESTIONS.values(), ())):
+        found = {}
+        question(found)
+        names[question] = set(found)
+        answers.update(found)
+    return answers, names
 
 
-EXPECTED = expected_answers()
+EXPECTED, NAMES = expected_answers()
 
 
 def levels_of(name):
@@ -32,8 +36,9 @@ def levels_of(name):
             LARGEST_BLENDED if name.startswith("blended") else LARGEST_OPAQUE)
 
 
-def assert_same(found, names=frozenset(EXPECTED)):
-    assert set(found) == set(names), set(found) ^ set(names)
+def assert_same(found, road):
+    names = set().union(*(NAMES[question] for question in ranks_slices_testing.QUESTIONS[road]))
+    assert set(found) == names, set(found) ^ names
     levels, numbers = {}, {}
     for name in found:
         if EXPECTED[name].ndim == 3:
@@ -52,8 +57,9 @@ def answers_of_batch(ranks):
     sentence = f"The first of {ranks} MPI ranks holds and draws the whole volume: "
     reasons = {line.partition(sentence)[2].rstrip(". ") for line in said.splitlines()
                if sentence in line}
-    allowed = set(ranks_slices_testing.REASONS)
-    assert reasons <= allowed and ranks_slices_testing.REASONS[1] in reasons, reasons
+    asks = ranks_slices_testing.answer_whole in ranks_slices_testing.QUESTIONS[ranks]
+    assert reasons <= set(ranks_slices_testing.REASONS), reasons
+    assert (ranks_slices_testing.REASONS[1] in reasons) == asks, reasons
     assert found["bytes one refuses"] == EXPECTED["bytes one refuses"]
     return found
 
@@ -69,7 +75,7 @@ def test_one_process_has_something_to_compare():
 
 def test_two_ranks_of_pvbatch():
     found = answers_of_batch(2)
-    assert_same(found)
+    assert_same(found, 2)
     for name, most in (("unbent", 0.72), ("none refuses", 0.6)):
         share = found[f"bytes {name}"][0] / EXPECTED[f"bytes {name}"][0]
         assert 0.5 < share < most, (name, share)
@@ -77,7 +83,7 @@ def test_two_ranks_of_pvbatch():
 
 def test_four_ranks_of_pvbatch():
     found = answers_of_batch(4)
-    assert_same(found)
+    assert_same(found, 4)
     for name, most in (("unbent", 0.55), ("bent", 0.75), ("none refuses", 0.36)):
         share = found[f"bytes {name}"][0] / EXPECTED[f"bytes {name}"][0]
         print(name, "share of the first rank", share, flush=True)
@@ -85,9 +91,9 @@ def test_four_ranks_of_pvbatch():
 
 
 def test_a_server_of_two_ranks():
-    of_both = {name for name in EXPECTED if "refuse" not in name}
-    answers = on_server(ranks_slices_testing.answers, launcher=[*MPI, "2"], **SERVER_FINDS_PLUGIN)
-    assert_same(answers, of_both)
+    answers = on_server(lambda: ranks_slices_testing.answers("server"), launcher=[*MPI, "2"],
+                        **SERVER_FINDS_PLUGIN)
+    assert_same(answers, "server")
 
 
 run_tests(globals())
