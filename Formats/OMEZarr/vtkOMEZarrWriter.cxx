@@ -114,7 +114,8 @@ int vtkOMEZarrWriter::Write()
   this->Work.reset();
   this->PiecesKept = 0;
   const std::string failed =
-    "Store " + this->FileName + " was not finished: the input gave no voxels where it was asked";
+    "Store " + this->FileName + " was not begun: the input gave no voxels. It failed, or it was "
+                                "stopped";
   this->Problem = failed; // until a piece comes
   this->HasEnded = false;
   const int result = this->Superclass::Write();
@@ -122,10 +123,9 @@ int vtkOMEZarrWriter::Write()
   {
     this->FirstRankGoes(false);
   }
-  if (this->Work) // the input failed after some pieces
+  if (this->Problem == failed)
   {
-    this->Work.reset();
-    this->Problem = failed;
+    vtkErrorMacro(<< failed << ".");
   }
   if (!this->Problem.empty())
   {
@@ -139,44 +139,42 @@ int vtkOMEZarrWriter::ModifyRequest(vtkInformation* request, int when)
 {
   if (when == vtkExecutive::BeforeForward && request->Has(SDDP::REQUEST_UPDATE_EXTENT()))
   {
-    guarded(this, [this] { this->AskForPiece(); });
+    guarded(this, [this] { this->AskForFirstPiece(); });
   }
   return this->Superclass::ModifyRequest(request, when);
 }
 
-void vtkOMEZarrWriter::AskForPiece()
+void vtkOMEZarrWriter::AskForFirstPiece()
 {
   vtkInformation* input = this->GetInputInformation(0, 0);
   if (!input || !input->Has(SDDP::WHOLE_EXTENT()))
   {
     return;
   }
-  if (!this->Work)
+  this->Work = std::make_unique<Run>();
+  input->Get(SDDP::WHOLE_EXTENT(), this->Work->whole.data());
+  this->Work->pieces =
+    piecesOf(this->Work->whole.data(), bytesOfPoint(input), this->MemoryLimit * BytesInMiB);
+  if (!this->Work->pieces.empty())
   {
-    this->Work = std::make_unique<Run>();
-    input->Get(SDDP::WHOLE_EXTENT(), this->Work->whole.data());
-    this->Work->pieces =
-      piecesOf(this->Work->whole.data(), bytesOfPoint(input), this->MemoryLimit * BytesInMiB);
-  }
-  if (this->Work->next < this->Work->pieces.size())
-  {
-    input->Set(SDDP::UPDATE_EXTENT(), this->Work->pieces[this->Work->next].extent.data(), 6);
+    input->Set(SDDP::UPDATE_EXTENT(), this->Work->pieces.front().extent.data(), 6);
   }
 }
 
+// The pipeline could be told to go on by itself, but it would do so for ever if the input is stopped.
 int vtkOMEZarrWriter::RequestData(
-  vtkInformation* request, vtkInformationVector**, vtkInformationVector*)
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  bool goesOn = false;
-  this->Problem = sentenceThrownBy(
-    "Store " + this->FileName + " cannot be written:", [&] { goesOn = this->TakePiece(); });
-  if (this->FirstRankGoes(goesOn))
+  bool goesOn = true;
+  while (goesOn)
   {
-    request->Set(SDDP::CONTINUE_EXECUTING(), 1);
-    return 1;
+    goesOn = false;
+    const std::string problem = sentenceThrownBy(
+      "Store " + this->FileName + " cannot be written:", [&] { goesOn = this->TakePiece(); });
+    this->Problem = isFirstRank() ? problem : std::string(); // the others only bring their parts
+    goesOn = this->FirstRankGoes(goesOn);
   }
-  request->Remove(SDDP::CONTINUE_EXECUTING());
   this->Work.reset();
   if (!this->Problem.empty())
   {
@@ -194,12 +192,15 @@ bool vtkOMEZarrWriter::TakePiece()
   {
     throw brainshift::Problem("The input has no voxels");
   }
+  const std::size_t number = this->Work->next++;
+  const bool isLast = this->Work->next == this->Work->pieces.size();
+  const Piece& piece = this->Work->pieces[number];
+  number == 0 ? requirePart(image, piece.extent)
+              : bringPart(this->GetInputInformation(0, 0), piece.extent);
   if (!isFirstRank())
   {
-    return ++this->Work->next < this->Work->pieces.size();
+    return !isLast;
   }
-  const Piece& piece = this->Work->pieces[this->Work->next];
-  requirePart(image, piece.extent);
   OutgoingVolume volume;
   this->TakeVoxels(volume);
   const VoxelBox box = boxOf(image, volume, piece);
@@ -210,12 +211,12 @@ bool vtkOMEZarrWriter::TakePiece()
   const int* whole = this->Work->whole.data();
   const PyramidPiece part{ piece.first() - Size3(whole[0], whole[2], whole[4]), box };
   const double pieces = static_cast<double>(this->Work->pieces.size());
-  const double done = static_cast<double>(this->Work->next) / pieces;
+  const double done = static_cast<double>(number) / pieces;
   const std::size_t written = this->Work->store->chunksWritten();
   this->RequireGoing(this->Work->store->write(part,
     [&](double fraction) { return this->Go(FractionOfFinest * (done + fraction / pieces)); }));
   this->PiecesKept += this->Work->store->chunksWritten() == written ? 1 : 0;
-  if (++this->Work->next < this->Work->pieces.size())
+  if (!isLast)
   {
     return true;
   }

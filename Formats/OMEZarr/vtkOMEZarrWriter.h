@@ -103,7 +103,7 @@ private:
 
   struct Run;
 
-  void AskForPiece();
+  void AskForFirstPiece();
   bool TakePiece();
   void TakeVoxels(brainshift::OutgoingVolume& volume);
   void Begin(const brainshift::OutgoingVolume& volume);

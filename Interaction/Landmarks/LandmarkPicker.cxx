@@ -224,6 +224,10 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
                       pqDataRepresentation* display) { return showsBent(deformation, display); };
   const auto other = [deformation](
                        pqDataRepresentation* display) { return showsOther(deformation, display); };
+  if (view->getViewProxy()->GetNeedsUpdate())
+  {
+    view->forceRender(); // what is clicked is what is drawn
+  }
   std::optional<CursorTissue> found = this->Probe.tissueAt(view, pixel.x, pixel.y, bent);
   if (!this->Picked)
   {

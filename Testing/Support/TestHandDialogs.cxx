@@ -12,6 +12,7 @@
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileDialog>
+#include <QLineEdit>
 #include <QMimeData>
 #include <QStringList>
 #include <QTest>
@@ -176,6 +177,10 @@ TEST_HAND_EXPORT void test_hand_answer_path(const char* dialog, const char* path
     else if (auto local = qobject_cast<QFileDialog*>(shown))
     {
       local->selectFile(path);
+      if (auto name = local->findChild<QLineEdit*>("fileNameEdit")) // which keeps what is typed
+      {
+        name->setText(path);
+      }
       static_cast<QDialog*>(local)->accept();
     }
   });

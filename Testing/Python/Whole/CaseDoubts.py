@@ -200,14 +200,14 @@ def test_no_figure_of_a_measurement_that_failed():
     assert not any("RMS" in name for name in figures_of_case(case))
     assert scenes.traces(case, (100, 100)) is None
     case.brain_labels = []
-    assert found(case, "Measure") == good
+    assert found(case, "Measure") == good, (found(case, "Measure"), good)
     away = volume(numpy.ones((3, 3, 3), numpy.uint8), origin=(900.0, 900.0, 900.0))
     brainshift.save_volume(away, path("elsewhere.mha"), world="RAS")
     case.cavity = path("elsewhere.mha")
     assert found(case, "Measure").state == "ready"
     assert_says(found(case, "Measure").found, "not measured")
     case.cavity = None
-    assert found(case, "Measure") == good
+    assert found(case, "Measure") == good, (found(case, "Measure"), good)
 
 
 def test_strokes_that_are_off_are_no_edits():

@@ -151,18 +151,28 @@ def drags_are_the_cameras_while_picking():
 
 def as_loaded_is_no_reference():
     head, view = scene["bent"].Input, scene["views"]["volume"]
+    compared = simple.GetDisplayProperties(scene["compare"], view)
     hand.click("BrainShiftPickPairs")
     click_at("axial", scene["middle"] + PLACES[0])
+    others = [other for other in (scene["compare"], scene["bent"])
+              if simple.GetDisplayProperties(other, view).Visibility]
     with window.unrecorded():
-        simple.Hide(scene["compare"], view)
-        simple.Show(head, view).SetRepresentationType("Deformed Volume")
+        for other in others:
+            simple.Hide(other, view)
+        shown = simple.Show(head, view)
+        shown.SetRepresentationType("Deformed Volume")
+        simple.ColorBy(shown, tuple(compared.ColorArrayName))
         simple.Render(view)
     hand.wait(300)
-    click(view, [side // 2 for side in view.ViewSize])
+    simple.Render(view)
+    middle = [side // 2 for side in view.ViewSize]
+    assert brainshift.pick(shown, view, *middle), "the head is in the middle"
+    click(view, middle)
     assert "is no reference" in request() and fit() is None, request()
     with window.unrecorded():
         simple.Hide(head, view)
-        simple.Show(scene["compare"], view)
+        for other in others:
+            simple.Show(other, view)
         simple.SetActiveSource(scene["bent"])
         simple.Render(view)
     hand.wait(300)
