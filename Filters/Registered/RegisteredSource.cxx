@@ -151,6 +151,11 @@ vtkSmartPointer<vtkImageData> wholeOnFirstRank(vtkImageData* part, vtkInformatio
   const auto image = SharedVolume().share(ranks, sent, volume, wanted, problem);
   throwIfAny(problem);
   runOnAllRanks("The volume", [&] {
+    if (isFirst && (!part || part->GetNumberOfPoints() == 0))
+    {
+      throw Problem("The first MPI rank, which registers, has no voxels of the volume; let its "
+                    "reader give it some, or register on one rank");
+    }
     if (isFirst)
     {
       findGrids(image);

@@ -266,14 +266,20 @@ void StreamedBricks::plan(GpuTask& gpu, const BrickView& view, TissueRequest& ti
 namespace
 {
 
-// So many slots or some less, in a block as nearly a cube as is simple.
-glm::ivec3 slotsASide(std::int64_t slots, int most)
+std::int64_t countOf(const glm::ivec3& side)
+{
+  return static_cast<std::int64_t>(side.x) * side.y * side.z;
+}
+
+// So many slots, some less or, if `orMore`, some more, in a block as nearly a cube as is simple.
+glm::ivec3 slotsASide(std::int64_t slots, int most, bool orMore)
 {
   const auto within = [most](double side) { return std::clamp(static_cast<int>(side), 1, most); };
   glm::ivec3 side(1);
   side.x = within(std::cbrt(static_cast<double>(slots)));
   side.y = within(std::sqrt(static_cast<double>(slots) / side.x));
-  side.z = within(static_cast<double>(slots) / (side.x * side.y));
+  const double layers = static_cast<double>(slots) / (side.x * side.y);
+  side.z = within(orMore ? std::ceil(layers) : layers);
   return side;
 }
 }
@@ -291,15 +297,20 @@ bool StreamedBricks::allocate(GpuTask& gpu)
     freeMiB == UnknownMemory ? UsualLimitMiB : std::min(UsualLimitMiB, 0.5 * freeMiB);
   const double allowed = this->LimitMiB > 0.0 ? this->LimitMiB : usualMiB;
   const glm::ivec3 bricks = this->Order.fine.bricks();
-  const std::int64_t inLevel = static_cast<std::int64_t>(bricks.x) * bricks.y * bricks.z;
+  const std::int64_t inLevel = countOf(bricks);
   const std::int64_t all = this->MostBricks > 0 ? std::min(inLevel, this->MostBricks) : inLevel;
   const int longest = vtkTextureObject::GetMaximumTextureSize3D(gpu.window) / SlotSideVoxels;
-  std::int64_t slots = std::min<std::int64_t>(
-    all, static_cast<std::int64_t>(allowed * BytesInMiB / (this->Bytes * SlotVoxels)));
+  const auto most =
+    static_cast<std::int64_t>(allowed * BytesInMiB / (this->Bytes * SlotVoxels));
+  std::int64_t slots = std::min(all, most);
   for (; slots >= std::min<std::int64_t>(LeastSlots, all); slots /= 2)
   {
-    const glm::ivec3 side =
-      slotsASide(slots, std::min(longest, static_cast<int>(PageTable::MostSlotsASide)));
+    const int mostASide = std::min(longest, static_cast<int>(PageTable::MostSlotsASide));
+    glm::ivec3 side = slotsASide(slots, mostASide, slots == all);
+    if (countOf(side) > most)
+    {
+      side = slotsASide(slots, mostASide, false);
+    }
     const glm::ivec3 texels = side * SlotSideVoxels;
     this->Atlas =
       makeTexture(gpu.window, isSixteenBits ? GL_R16 : GL_R32F, vtkTextureObject::Linear);

@@ -63,6 +63,16 @@ def spoiled(source, how, rank=1):
                                      Script=SPOILS.format(rank=rank, how=how))
 
 
+# The whole volume is asked for on each rank: what one of them lacks, another one has.
+ASKS_WHOLE = """
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+asked = self.GetExecutive().GetInputInformation(0).GetInformationObject(0)
+asked.Set(Pipeline.UPDATE_EXTENT(), *asked.Get(Pipeline.WHOLE_EXTENT()))
+asked.Set(Pipeline.UPDATE_PIECE_NUMBER(), 0)
+asked.Set(Pipeline.UPDATE_NUMBER_OF_PIECES(), 1)
+"""
+
+
 def mend(filter):
     filter.Script = SPOILS.format(rank=-1, how="pass")
 
@@ -265,18 +275,23 @@ def answer_step(found):
 
 
 def answer_empty(found):
-    """A rank that has no voxels: the first, which draws and registers alone, or the second."""
+    """A rank that has no voxels: the first, which registers, or the second."""
     import brainshift
     for rank in (0, 1):
-        volume = simple.FreeFormDeformation(Input=spoiled(wavelet(), NO_VOXELS, rank),
-                                            Strokes=brainshift.soft(MIDDLE, (4, 2, 1), 9))
+        lacking = spoiled(wavelet(), NO_VOXELS, rank)
+        lacking.RequestUpdateExtentScript = ASKS_WHOLE
+        volume = simple.FreeFormDeformation(
+            Input=lacking, Strokes=brainshift.soft(MIDDLE, (4, 2, 1), 9))
         view = see()
         display = show_volume(volume, view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
         display.AmbientOcclusion = 0
         with noting(found, f"empty {rank}"):
             found[f"empty {rank} picture"] = picture(view)
         compare = simple.CompareVolumes(Input=volume, Reference=wavelet())
-        brainshift.refine(volume, compare, callback=lambda progress: progress.steps < 2)
+        try:
+            brainshift.refine(volume, compare, callback=lambda progress: progress.steps < 2)
+        except (RuntimeError, ValueError) as error:
+            found[f"empty {rank} refusal"] = numpy.array(str(error))
         found[f"empty {rank} refined"] = brainshift.deformed_from_rest(volume, PLACES)
         simple.Delete(view)
 
