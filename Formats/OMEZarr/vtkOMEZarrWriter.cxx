@@ -113,9 +113,9 @@ int vtkOMEZarrWriter::Write()
 {
   this->Work.reset();
   this->PiecesKept = 0;
-  const std::string failed =
-    "Store " + this->FileName + " was not begun: the input gave no voxels. It failed, or it was "
-                                "stopped";
+  const std::string failed = "Store " + this->FileName +
+    " was not begun: the input gave no voxels. It failed, or it was "
+    "stopped";
   this->Problem = failed; // until a piece comes
   this->HasEnded = false;
   const int result = this->Superclass::Write();
@@ -161,9 +161,8 @@ void vtkOMEZarrWriter::AskForFirstPiece()
   }
 }
 
-// The pipeline could be told to go on by itself, but it would do so for ever if the input is stopped.
-int vtkOMEZarrWriter::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+// If the pipeline were told to go on by itself, it would do so for ever once the input is stopped.
+int vtkOMEZarrWriter::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
   bool goesOn = true;

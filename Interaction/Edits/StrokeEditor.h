@@ -63,8 +63,8 @@ public:
   /// draws nothing, and the undo stack sees nothing.
   void walkThrough(const std::function<void()>& measure);
 
-  /// Whether a property is under way to what it was: Strokes while they are walked through, Strength
-  /// while the volume is shown as loaded.
+  /// Whether a property is under way to what it was: Strokes while they are walked through,
+  /// Strength while the volume is shown as loaded.
   bool bringsBack(const char* property) const;
 
   /// On: shows the volume as loaded. Off: restores Strength. The undo stack sees neither.

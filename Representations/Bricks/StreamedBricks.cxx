@@ -300,8 +300,7 @@ bool StreamedBricks::allocate(GpuTask& gpu)
   const std::int64_t inLevel = countOf(bricks);
   const std::int64_t all = this->MostBricks > 0 ? std::min(inLevel, this->MostBricks) : inLevel;
   const int longest = vtkTextureObject::GetMaximumTextureSize3D(gpu.window) / SlotSideVoxels;
-  const auto most =
-    static_cast<std::int64_t>(allowed * BytesInMiB / (this->Bytes * SlotVoxels));
+  const auto most = static_cast<std::int64_t>(allowed * BytesInMiB / (this->Bytes * SlotVoxels));
   std::int64_t slots = std::min(all, most);
   for (; slots >= std::min<std::int64_t>(LeastSlots, all); slots /= 2)
   {
