@@ -15,8 +15,8 @@ namespace brainshift
 class FormerWeights
 {
 public:
-  /// Switches a pair on or off. Its weight is 1 if none is known. Switching on may be undone, so the
-  /// weight stays known.
+  /// Switches a pair on or off. Its weight is 1 if none is known. Switching on may be undone, so
+  /// the weight stays known.
   void setOn(PointPair& pair, bool on)
   {
     if (on == isOn(pair))
