@@ -4,6 +4,7 @@
     ./brainshift bench [--quick] [--sizes 128 256 512] [--lattices 9 19 37] [--windows 512 1024]
                        [--rounds 5] [--seconds 15]
     ./brainshift bench --volumes [FILE ...]  floors on four volumes (floors.py), and on real files
+    ./brainshift bench --large [X Y Z]   a store that is drawn in bricks (large.py)
     ./brainshift bench --ultrasound      errors of Refine by ultrasound instead (ultrasound.py)
 
 It prints tables and writes bench-output/benchmark.json and a plot. The last table shows the floors
@@ -46,6 +47,7 @@ import numpy  # noqa: E402
 from comparison import measure_comparison  # noqa: E402
 from fits import measure_fits  # noqa: E402
 from floors import measure_floors  # noqa: E402
+from large import measure_large  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OCCLUSION, OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
@@ -280,6 +282,8 @@ def parse(arguments):
                         help="the reference case only, 512x512, one round: about a minute")
     parser.add_argument("--volumes", nargs="*", metavar="FILE",
                         help="only the floors on four made volumes, and on these files")
+    parser.add_argument("--large", type=int, nargs="*", metavar="N",
+                        help="only a store of so many voxels, drawn in bricks (1024 1024 512)")
     parser.add_argument("--reference", type=int, nargs=3, metavar="N", default=REFERENCE,
                         help="voxels of the reference case (256 256 150)")
     parser.add_argument("--sizes", type=int, nargs="*", metavar="N",
@@ -305,6 +309,10 @@ def parse(arguments):
         parser.error(f"--rounds is {options.rounds}; it must be at least 1")
     if options.strokes < 10:
         parser.error(f"--strokes is {options.strokes}; it must be at least 10")
+    if options.large is not None:
+        options.large = options.large or [1024, 1024, 512]
+        if len(options.large) != 3 or min(options.large) < 256:
+            parser.error(f"--large is {options.large}; it must be three numbers from 256")
     for name, least in (("reference", 16), ("sizes", 16), ("lattices", 4), ("windows", 32)):
         for value in getattr(options, name):
             if value < least:
@@ -348,6 +356,9 @@ def another_lattice(benchmark, window):
 
 def main(arguments=None):
     options = parse(arguments)
+    if options.large is not None:
+        measure_large(tuple(options.large), options)
+        return
     if options.volumes is not None:
         measure_floors(lambda window: Report(header(window)), options).write(options.output)
         return

@@ -8,7 +8,7 @@ import platform
 from measure import rendering_threads
 from paraview.simple import GetParaViewSourceVersion
 from plot import plot, plot_volumes
-from targets import OF_VOLUMES, TARGETS
+from targets import OF_STORES, OF_VOLUMES, TARGETS
 
 
 def header(window):
@@ -32,7 +32,7 @@ def _ratio(above, below):
     return above / max(below, 1e-9) if above is not None and below is not None else None
 
 
-ALL_TARGETS = {**TARGETS, **OF_VOLUMES}
+ALL_TARGETS = {**TARGETS, **OF_VOLUMES, **OF_STORES}
 
 
 class Report:

@@ -69,3 +69,14 @@ OF_VOLUMES = {
     "occlusion translucent": Target("error of occlusion alone, translucent",
                                     "the picture's error", "x", 0.2, 0.1, small_is_good=True),
 }
+
+#: Of large.py alone.
+OF_STORES = {
+    "large first": Target("store: first picture", "-", "s", 3, 1.5, small_is_good=True),
+    "large detail": Target("store: all detail of a view", "-", "s", 10, 4, small_is_good=True),
+    "large edit": Target("store: a stroke to a still picture", "a head that fits, as loaded", "x",
+                         1.5, 1, small_is_good=True),
+    "large drag": Target("store: a stroke to a picture while dragging", "an eye", "/s", 15, 30),
+    "large memory": Target("store: resident memory beyond the limit", "-", "GiB", 1, 0.5,
+                           small_is_good=True),
+}
