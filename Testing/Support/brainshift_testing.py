@@ -232,16 +232,16 @@ def assert_says(text, *words):
 
 
 @contextlib.contextmanager
-def server(environment, launcher=()):
+def server(environment, launcher=(), options=()):
     """A pvserver on this machine: its port and its process. `launcher`: what starts it, such as
-    mpirun -np 2."""
+    mpirun -np 2. `options`: of the server, beside the port."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     inherited = {name: value for name, value in os.environ.items() if name != "PV_PLUGIN_PATH"}
     process = subprocess.Popen(
         [*launcher, os.environ["BRAINSHIFT_PVSERVER"], "--force-offscreen-rendering",
-         f"--server-port={port}"],
+         f"--server-port={port}", *options],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
         env={**inherited, **environment})
     try:
