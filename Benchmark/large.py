@@ -22,7 +22,7 @@ from report import Report, header
 from scene import AIR, ARRAY, COLORS, TOWARDS_EYE, image_of, sample_voxels, voxels_of
 from vtkmodules.vtkImagingCore import vtkImageReslice
 
-WINDOW = 512
+WINDOW, LATTICE = 512, 19
 LONGEST_MM = 205.0
 COARSER = 4       # voxels a side, of the small head
 SLAB = 16         # slices at once
@@ -82,7 +82,7 @@ class Head:
     def __init__(self, source, size, spacing):
         self.middle = numpy.array(size) * spacing / 2
         self.edits = self.turns = 0
-        self.bent = simple.FreeFormDeformation(Input=source, LatticeDimensions=[19] * 3)
+        self.bent = simple.FreeFormDeformation(Input=source, LatticeDimensions=[LATTICE] * 3)
         self.edit()
         self.view = view = simple.CreateView("RenderView")
         view.ViewSize = [WINDOW, WINDOW]
@@ -171,11 +171,13 @@ def measure_large(size, options):
                 f"pictures: {state['gpuBricks']} bricks of level {state['gpuLevel']}")
     report.target("large detail", wall, processor / rendering_threads())
     rows = {}
+    about = {"dimensions": list(size), "voxels": int(numpy.prod(size)), "lattice": LATTICE,
+             "window": WINDOW}
     for kind, before, moving in (("a stroke", Head.edit, False),
                                  ("a stroke under the hand", Head.edit, True),
                                  ("another camera", Head.turn, False)):
         rows[kind] = report.group(
-            f"large, {kind}", f"{kind}, {WINDOW}x{WINDOW}", {"size": list(size)},
+            f"large, {kind}", f"{kind}, {WINDOW}x{WINDOW}", about,
             interleaved([side(words, head, before, moving),
                          side("a quarter of the voxels a side", small, before, moving)],
                         options.rounds, options.seconds))
