@@ -78,6 +78,14 @@ public:
     {
       this->endInArray(name, this->File.arrays.back());
     }
+    else if (name == "Name")
+    {
+      this->MetaName = trimmed(this->Text);
+    }
+    else if (name == "Value")
+    {
+      this->File.meta.insert({ this->MetaName, trimmed(this->Text) });
+    }
     this->Open.pop_back();
     this->Text.clear();
   }

@@ -42,6 +42,7 @@ struct GIFTIArray
 struct GIFTIFile
 {
   std::map<std::string, std::string> attributes; ///< of the first element
+  std::map<std::string, std::string> meta;       ///< names and values of its own MetaData
   std::vector<GIFTIArray> arrays;
   std::vector<Label> labels;
 };

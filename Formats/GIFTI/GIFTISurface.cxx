@@ -6,6 +6,7 @@
 /// matrix leads to the scanner's space, or else to that of an aligned anatomy: it counts. 3. Their
 /// space has a name: they stay. 4. FreeSurfer left the geometry of its volume: they are in tkRAS
 /// (SurfaceFile.h). 5. Nobody knows. They stay, and it is noted.
+#include "Common/HostMemory.h"
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 #include "Formats/GIFTI/GIFTIFile.h"
@@ -106,15 +107,33 @@ void noteUnknown(const GIFTIArray& points, Surface& surface)
 {
   surface.knowsWorld = false;
   std::string note = "does not name the space of its points; they are shown as they are";
-  const std::string to = points.transforms.empty() ? Unknown : points.transforms[0].to;
-  note += to.empty() || to == Unknown
-    ? ""
-    : ", and the file's matrix to " + shownWords(to) + " is not used";
+  const GIFTITransform none;
+  const GIFTITransform& first = points.transforms.empty() ? none : points.transforms[0];
+  const std::string to = first.to.empty() ? Unknown : first.to;
+  const bool moves =
+    !first.numbers.empty() && (first.numbers.size() != 16 || matrixOf(first) != glm::dmat4(1.0));
+  note +=
+    moves || to != Unknown ? ", and the file's matrix to " + shownWords(to) + " is not used" : "";
   surface.notes.push_back(note);
 }
 
+// Connectome Workbench keeps FreeSurfer's geometry where it moves the points, and says what it ran.
+void noteOtherProgram(const GIFTIFile& file, Surface& surface)
+{
+  const bool isOfWorkbench = std::any_of(file.meta.begin(), file.meta.end(),
+    [](const auto& meta) { return meta.first.find("Provenance") != std::string::npos; });
+  if (isOfWorkbench && surface.worldFromStored != glm::dmat4(1.0))
+  {
+    surface.notes.emplace_back(
+      "does not name the space of its points; they are placed by the geometry of FreeSurfer's "
+      "volume that it keeps (VolGeom). Another program wrote the file; if that one moved the "
+      "points (wb_command -surface-apply-affine), they are in the wrong place: open the surface "
+      "that FreeSurfer wrote, or one that mris_convert --to-scanner writes");
+  }
+}
+
 // The rule of the opening comment.
-void findPlace(const GIFTIArray& points, Surface& surface)
+void findPlace(const GIFTIFile& file, const GIFTIArray& points, Surface& surface)
 {
   const std::string from = points.transforms.empty() ? Unknown : points.transforms[0].from;
   if (from == Scanner)
@@ -148,6 +167,7 @@ void findPlace(const GIFTIArray& points, Surface& surface)
   else if (frame)
   {
     surface.worldFromStored = scannerFromSurface(*frame);
+    noteOtherProgram(file, surface);
   }
   else
   {
@@ -257,6 +277,10 @@ void spread(const std::vector<std::size_t>& index, std::size_t points, GIFTIArra
   }
   const std::size_t numberBytes = array.bytes.size() / (array.rows * array.columns);
   const std::size_t rowBytes = numberBytes * array.columns;
+  withBeginning("cannot be read: ", [&] {
+    requireHostMemory("an array of " + std::to_string(points) + " points",
+      static_cast<double>(points) * static_cast<double>(rowBytes));
+  });
   std::vector<char> all(points * rowBytes);
   for (std::size_t i = 0; i < points * array.columns && (isDouble || isFloat); ++i)
   {
@@ -282,9 +306,14 @@ void takeNumbers(GIFTIFile& file, Surface& surface)
   for (GIFTIArray& array : file.arrays)
   {
     const std::string intent = array.attribute("Intent");
-    if (intent == PointIntent || intent == TriangleIntent || intent == IndexIntent ||
-      array.bytes.empty())
+    if (intent == PointIntent || intent == TriangleIntent || intent == IndexIntent)
     {
+      continue;
+    }
+    if (array.bytes.empty())
+    {
+      surface.notes.push_back(
+        "has the array " + shownWords(nameOf(array)) + " without an element Data; left out");
       continue;
     }
     if (!index.empty() && array.rows == index.size())
@@ -376,7 +405,7 @@ void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface
   }
   requireShape(*points, "points", false);
   requireShape(*triangles, "triangles", true);
-  findPlace(*points, surface);
+  findPlace(file, *points, surface);
   takePoints(*points, surface);
   takeTriangles(*triangles, surface);
   takeNumbers(file, surface);
@@ -387,7 +416,11 @@ void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface
 void addGIFTINumbers(const std::vector<char>& text, const std::string&, Surface& surface)
 {
   GIFTIFile file = readGIFTIFile(text);
+  const std::size_t before = surface.numbers.size() + surface.notes.size();
   takeNumbers(file, surface);
+  throwIfAny(surface.numbers.size() + surface.notes.size() > before
+      ? ""
+      : "has no array of values of the points; name a file that has one");
 }
 }
 

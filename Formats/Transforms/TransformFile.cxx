@@ -9,6 +9,7 @@
 #include "Formats/Transforms/FSLWarp.h"
 #include "Formats/Transforms/TransformRecord.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <utility>
@@ -29,10 +30,17 @@ std::string readAll(const std::string& fileName)
     throw Problem(error ? "cannot be opened"
                         : "has " + std::to_string(size) + " bytes; a transform has up to 1 GiB");
   }
-  withBeginning(
-    "cannot be read: ", [&] { requireHostMemory("its text", 3.0 * static_cast<double>(size)); });
+  const auto requireMemory = [](double bytes) {
+    withBeginning("cannot be read: ", [bytes] { requireHostMemory("its text", bytes); });
+  };
+  const double ofText = 3.0 * static_cast<double>(size);
+  requireMemory(ofText);
   std::string bytes = readBeginning(fileName, size);
   throwIfAny(bytes.size() == size ? "" : "cannot be read to its end");
+  const auto words = std::count_if(bytes.begin(), bytes.end(),
+    [](char letter) { return letter == ' ' || letter == '\t' || letter == '\n'; });
+  constexpr double ofWord = 160.0; // as a string, a copy of it and a number, while lists grow
+  requireMemory(ofText + ofWord * static_cast<double>(words));
   return bytes;
 }
 

@@ -121,6 +121,35 @@ def test_what_occurs_twice_is_refused_by_its_name():
         assert not error, error
 
 
+def said_of(content, name="said.gii", **properties):
+    error, facts = fields_walk.outcome("SurfaceReader", name, content, **properties)
+    return error or facts[0]
+
+
+def test_what_is_not_used_is_said():
+    nowhere = ("NIFTI_XFORM_UNKNOWN",) * 2
+    assert "and the file's matrix to NIFTI_XFORM_UNKNOWN is not used" in said_of(
+        gifti(inside=system(nowhere)))
+    still = system(nowhere, matrix=SHIFT.replace("5", "0"))
+    assert "matrix" not in said_of(gifti(inside=still))
+    empty = array(VALUES, "NIFTI_INTENT_SHAPE", meta=[("Name", "thickness")]).split("<Data>")[0]
+    assert "the array thickness without an element Data" in said_of(
+        gifti(inside=system(), values=empty + "</DataArray>"))
+    surface = gifti(inside=system(), values=" ", count="2")
+    assert not said_of(surface, "values.gii")
+    assert "has no array of values" in said_of(
+        surface, ValueFileNames=[fields_walk.scratch("values.gii")])
+
+
+def test_points_that_workbench_may_have_moved_are_doubted():
+    geometry = [(f"VolGeom{letter}_{axis}", "1" if letter + axis in ("XR", "YA", "ZS") else
+                 "5" if letter == "C" else "0") for letter in "XYZC" for axis in "RAS"]
+    words = "<MD><Name>Provenance</Name><Value>wb_command -surface-apply-affine</Value></MD>"
+    assert "-surface-apply-affine" in said_of(gifti(meta=geometry, root=words))
+    assert not said_of(gifti(meta=geometry))
+    assert not said_of(gifti(meta=geometry, inside=system((SPACES[1],) * 2), root=words))
+
+
 def indexed(index, numbers, kind="NIFTI_INTENT_SHAPE"):
     """A surface of 4 points whose numbers belong to some points, and what is shown or said."""
     both = (array(numpy.array(index, numpy.int32), "NIFTI_INTENT_NODE_INDEX")
