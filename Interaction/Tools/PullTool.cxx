@@ -40,7 +40,7 @@ private:
   };
 
   void find();
-  void takeHold();
+  void takeHold(const Spot& spot);
   void show(const std::optional<glm::dvec3>& highlight);
   bool isSeen(const Shown& mark) const;
   double gripRadius(const glm::dvec3& position) const;
@@ -227,15 +227,15 @@ bool PullTool::press(const HandEvent& event)
   this->Rest = *rest;
   this->Held = { *spot, pixelOf(event) };
   this->Begun = false;
-  this->takeHold();
+  this->takeHold(*spot);
   return true;
 }
 
-void PullTool::takeHold()
+void PullTool::takeHold(const Spot& spot)
 {
   this->find();
   this->List = this->pulls();
-  const double radius = this->gripRadius(this->Held->spot.position);
+  const double radius = this->gripRadius(spot.position);
   this->Dragged = nearest(this->List, this->Rest, radius);
   if (this->Dragged == this->List.size())
   {
@@ -270,7 +270,7 @@ void PullTool::drag(const HandEvent& event)
   }
   if (!fit.isEditing() && fit.claim())
   {
-    this->takeHold(); // of what a run left there, which may have pulls of its own
+    this->takeHold(this->Held->spot); // of what a run left there, which may have pulls of its own
   }
   const glm::dvec3 moved = this->pulled(*this->Held, pixelOf(event));
   Pull& pull = this->List[this->Dragged];
