@@ -6,7 +6,7 @@ voxels with noise of 4 bits, so that it packs no better than a scan.
 
 Beside it, in the same run, stands what the same head takes with a quarter of the voxels a side,
 which fits and is drawn as it is. The store is made anew, in the folder of the results, and removed.
-Read the pages for what is drawn when; targets.py has the floors and goals.
+The page "Large volumes" says what is drawn when; targets.py has the floors and goals.
 """
 
 import os

@@ -114,8 +114,7 @@ int vtkOMEZarrWriter::Write()
   this->Work.reset();
   this->PiecesKept = 0;
   const std::string failed = "Store " + this->FileName +
-    " was not begun: the input gave no voxels. It failed, or it was "
-    "stopped";
+    " was not begun: the input gave no voxels. It failed, or it was stopped";
   this->Problem = failed; // until a piece comes
   this->HasEnded = false;
   const int result = this->Superclass::Write();
