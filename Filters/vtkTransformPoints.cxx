@@ -2,9 +2,11 @@
 #include "vtkTransformPoints.h"
 
 #include "Common/Guard.h"
+#include "Common/Numbers.h"
 #include "Common/Portions.h"
 #include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Transforms/PointTransform.h"
 #include "vtkTransformReader.h"
 
@@ -18,6 +20,9 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
+#include <vector>
+
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkTransformPoints);
@@ -27,6 +32,20 @@ namespace
 {
 constexpr vtkIdType PointsAtLeast = 256; // for a thread: about 0.1 ms
 constexpr double StepMm = 0.1;           // between the points that a derivative is taken from
+
+// `missesMm`: of each point.
+void warnOfMisses(vtkObject* filter, const std::vector<double>& missesMm)
+{
+  const auto missed = std::count_if(
+    missesMm.begin(), missesMm.end(), [](double missMm) { return missMm > ToldMissMm; });
+  if (missed > 0)
+  {
+    const double most = *std::max_element(missesMm.begin(), missesMm.end());
+    warn(filter,
+      joined(missed, " of ", missesMm.size(), " points miss their positions by up to ",
+        roundedText(most), " mm: the transform folds or jumps there"));
+  }
+}
 
 glm::dvec3 tupleOf(vtkDataArray* array, vtkIdType index)
 {
@@ -81,9 +100,11 @@ int vtkTransformPoints::RequestData(
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(count);
   const PointTransform& chain = this->Transform->GetChain();
-  const auto moved = [&](const glm::dvec3& from) {
-    return this->Direction == Forward ? mapped(chain, from) : mappedBack(chain, from);
+  const auto moved = [&](const glm::dvec3& from, double* missMm = nullptr) {
+    return this->Direction == Forward ? mapped(chain, from, missMm)
+                                      : mappedBack(chain, from, missMm);
   };
+  std::vector<double> missesMm(static_cast<std::size_t>(count), 0.0);
   vtkDataArray* normals = input->GetPointData()->GetNormals();
   vtkNew<vtkDoubleArray> turned;
   turned->SetNumberOfComponents(3);
@@ -93,7 +114,7 @@ int vtkTransformPoints::RequestData(
     {
       glm::dvec3 from;
       input->GetPoint(i, &from.x);
-      const glm::dvec3 to = moved(from);
+      const glm::dvec3 to = moved(from, &missesMm[static_cast<std::size_t>(i)]);
       points->SetPoint(i, &to.x);
       if (normals)
       {
@@ -116,6 +137,7 @@ int vtkTransformPoints::RequestData(
     }
     output->GetCellData()->SetNormals(nullptr); // those of the flat cells are made from the points
   }
+  warnOfMisses(this, missesMm);
   return 1;
 }
 

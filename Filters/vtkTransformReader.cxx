@@ -186,16 +186,18 @@ vtkDoubleArray* vtkTransformReader::MapPoints(bool isBack, vtkDoubleArray* to)
 {
   const State& state = *this->Internal;
   const auto points = this->Load().empty() ? static_cast<vtkIdType>(state.Points.size()) : 0;
-  to->SetNumberOfValues(3 * points);
+  to->SetNumberOfValues(4 * points);
   double* const numbers = to->GetPointer(0);
   parallelFor(0, points, PointsAtLeast, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
-      const glm::dvec3 point =
-        isBack ? mappedBack(state.Chain, state.Points[i]) : mapped(state.Chain, state.Points[i]);
+      double& missMm = numbers[4 * i + 3];
+      missMm = 0.0;
+      const glm::dvec3 point = isBack ? mappedBack(state.Chain, state.Points[i], &missMm)
+                                      : mapped(state.Chain, state.Points[i], &missMm);
       for (int axis = 0; axis < 3; ++axis)
       {
-        numbers[3 * i + axis] = point[axis];
+        numbers[4 * i + axis] = point[axis];
       }
     }
   });

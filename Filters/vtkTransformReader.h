@@ -145,10 +145,13 @@ public:
   void ClearPoints();
   ///@}
 
-  /** Where the file's own map takes the points (mm, world): three numbers each. Owned by this. */
+  /**
+   * Where the file's own map takes the points (mm, world), and how far a position that had to be
+   * solved misses (mm): four numbers each. Owned by this.
+   */
   vtkDoubleArray* GetMappedPoints();
 
-  /** Which points the file's own map takes to the points (mm, world), likewise. */
+  /** Which points the file's own map takes to the points, likewise. */
   vtkDoubleArray* GetMappedBackPoints();
 
   /**

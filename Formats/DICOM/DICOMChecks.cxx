@@ -107,15 +107,23 @@ void requireVolume(const DICOMDataSet& set, SegmentKind kind)
       ") in an image of another class than a segmentation (SOPClassUID " +
       shownWords(textOf(set, 0x00080016)) + "). Convert it to .nii.gz or .seg.nrrd");
   }
+  bool isSlide = textOf(set, 0x00080060) == "SM" ||      // Modality
+    textOf(set, 0x00209311).compare(0, 5, "TILED") == 0; // DimensionOrganizationType
   for (const DICOMTag groups : { SharedGroups, FrameGroups })
   {
     const auto& items = itemsOf(set, groups);
+    isSlide = isSlide || (!items.empty() && has(items.front(), 0x0048021a));
     if (!items.empty() && has(items.front(), 0x0020930e))
     {
       throw Problem(
         "has frames on the axes of its own volume (PlanePositionVolumeSequence), not of "
         "the patient, which BrainShift does not read");
     }
+  }
+  if (isSlide)
+  {
+    throw Problem("has tiles of a slide under a microscope, which have no position in a patient. "
+                  "Open it in a viewer of slides");
   }
 }
 
@@ -186,7 +194,16 @@ std::vector<std::string> notesOf(const DICOMDataSet& set, const DICOMFile& file)
     addNote(notes, "does not say its PhotometricInterpretation, which counts as MONOCHROME2");
   }
   noteInverse(set, file, notes);
-  notePadding(set, file.pixels, notes);
+  if (file.segments.kind == SegmentKind::None)
+  {
+    notePadding(set, file.pixels, notes);
+  }
+  else if (file.segments.background > 0)
+  {
+    addNote(notes,
+      joined("marks voxels that are in no segment by ", file.segments.background,
+        " (PixelPaddingValue); slices without a frame have it, too"));
+  }
   return notes;
 }
 }

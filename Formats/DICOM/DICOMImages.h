@@ -121,6 +121,7 @@ struct DICOMSegments
 {
   SegmentKind kind = SegmentKind::None;
   int most = 1;              ///< MaximumFractionalValue: this number is all of a voxel
+  int background = 0;        ///< of a LabelMap (PixelPaddingValue): in no segment
   std::vector<Label> labels; ///< of the segments, by their numbers
 };
 

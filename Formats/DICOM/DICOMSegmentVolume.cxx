@@ -4,12 +4,13 @@
 #include "Formats/DICOM/DICOMPixels.h"
 #include "Formats/Files/Text.h"
 
+#include "vtkDataArray.h"
 #include "vtkImageData.h"
+#include "vtkPointData.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <set>
 #include <utility>
@@ -260,7 +261,7 @@ bool DICOMSegmentVolume::paint(
       }
       const auto number = static_cast<Number>(
         kind == SegmentKind::Binary ? this->File.frames[frame].segment : numbers[i]);
-      to[i] = numbers[i] ? number : to[i];
+      to[i] = numbers[i] || kind == SegmentKind::LabelMap ? number : to[i];
     }
   };
   return this->StoredType == VTK_UNSIGNED_SHORT
@@ -274,9 +275,7 @@ void DICOMSegmentVolume::load(
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(this->File.columns, this->File.rows, this->Grid.slices);
   image->AllocateScalars(this->Type, 1);
-  const std::size_t bytes = static_cast<std::size_t>(image->GetNumberOfPoints()) *
-    static_cast<std::size_t>(image->GetScalarSize());
-  std::memset(image->GetScalarPointer(), 0, bytes);
+  image->GetPointData()->GetScalars()->Fill(this->File.segments.background);
   const bool isWhole = this->Type == VTK_UNSIGNED_SHORT
     ? this->paint<unsigned short>(layer, progress, image)
     : this->paint<unsigned char>(layer, progress, image);

@@ -93,6 +93,12 @@ void requireAligned(const DICOMFile& file, DICOMSegmentGrid& grid)
   const DICOMFrame& first = file.frames.front();
   const glm::dvec3 normal = glm::normalize(glm::cross(first.alongRow, first.alongColumn));
   double largestMm = 0.0;
+  if (std::none_of(file.frames.begin(), file.frames.end(),
+        [](const DICOMFrame& frame) { return frame.isPlaced; }))
+  {
+    throw Problem("is a segmentation of a picture that has no position in the patient, such as an "
+                  "X-ray. Open it in the program that made it");
+  }
   for (std::size_t i = 0; i < file.frames.size(); ++i)
   {
     const DICOMFrame& frame = file.frames[i];
@@ -343,6 +349,17 @@ void readSegments(const DICOMDataSet& set, DICOMSegments& segments)
         "has fractions up to ", most, " (MaximumFractionalValue); it must be from 1 to 255"));
     }
     segments.most = static_cast<int>(most);
+  }
+  if (segments.kind == SegmentKind::LabelMap)
+  {
+    const double background = wholeOf(set, 0x00280120, 0.0); // PixelPaddingValue
+    const double most = wholeOf(set, 0x00280100, 8.0) > 8.0 ? 65535.0 : 255.0;
+    if (!(background >= 0.0 && background <= most))
+    {
+      throw Problem(joined(
+        "has the PixelPaddingValue ", background, " among labels; it must be from 0 to ", most));
+    }
+    segments.background = static_cast<int>(background);
   }
 }
 

@@ -289,6 +289,27 @@ void keep(const DICOMDataSet& source, DerivedSet& set, const Choice& isMeant)
   }
 }
 
+// What a slice of MR must say: enhanced files have it in the groups that all frames share.
+void setTiming(const DICOMDataSet& source, DerivedSet& set)
+{
+  const auto groupOf = [&source](DICOMTag group) {
+    const auto& shared = itemsOf(source, 0x52009229);
+    const auto& items = itemsOf(shared.empty() ? source : shared.front(), group);
+    return items.empty() ? DICOMDataSet() : items.front();
+  };
+  const DICOMDataSet timing = groupOf(0x00189112);
+  const double echoMs = doubleOf(groupOf(0x00189114), 0x00189082, 0.0);
+  const auto fill = [&set](DICOMTag tag, const char* type, const std::string& text) {
+    if (set.count(tag) == 0)
+    {
+      setText(set, tag, type, text);
+    }
+  };
+  fill(0x00180080, "DS", textOf(timing, 0x00180080));              // RepetitionTime
+  fill(0x00180081, "DS", echoMs > 0.0 ? decimalText(echoMs) : ""); // EchoTime
+  fill(0x00180091, "IS", textOf(timing, 0x00180091));              // EchoTrainLength
+}
+
 void setKind(const DICOMDataSet& source, DerivedSet& set)
 {
   const std::string modality = textOf(source, Modality);
@@ -304,6 +325,10 @@ void setKind(const DICOMDataSet& source, DerivedSet& set)
   if (storage == SecondaryCapture)
   {
     setText(set, 0x00080064, "CS", "WSD"); // made at a workstation
+  }
+  if (storage == MRStorage)
+  {
+    setTiming(source, set);
   }
   if (modality == "MR" && textOf(source, ScanningSequence).empty())
   {

@@ -64,7 +64,8 @@ struct Source
 {
   std::string storage;
   std::string instance;
-  int frame = 0; // from 1 on; 0: the file has one
+  int frame = 0;       // from 1 on; 0: the file has one
+  bool isTile = false; // of a mosaic: not where the file says that its picture lies
   glm::dvec3 position{ 0.0 };
   glm::dvec3 alongRow{ 1.0, 0.0, 0.0 };
   glm::dvec3 alongColumn{ 0.0, 1.0, 0.0 };
@@ -80,13 +81,14 @@ std::vector<Source> sourcesOf(const std::string& like, const DICOMDataSet& heade
   {
     const bool isOfSeries = !series.empty() && file.series == series && !file.sopClass.empty() &&
       !file.instance.empty() && file.segments.kind == SegmentKind::None;
+    const bool isMosaic = file.tiles != glm::ivec2(1);
     for (const DICOMFrame& frame : isOfSeries ? file.frames : std::vector<DICOMFrame>())
     {
       if (frame.isPlaced)
       {
         sources.push_back(
-          { file.sopClass, file.instance, file.frames.size() > 1 ? frame.frame + 1 : 0,
-            frame.position, frame.alongRow, frame.alongColumn });
+          { file.sopClass, file.instance, file.frames.size() > 1 && !isMosaic ? frame.frame + 1 : 0,
+            isMosaic, frame.position, frame.alongRow, frame.alongColumn });
       }
     }
   }
@@ -413,7 +415,7 @@ std::vector<DerivedSet> derivationOf(
   {
     setText(image, 0x00081160, "IS", std::to_string(source->frame));
   }
-  setText(image, 0x0028135a, "CS", "YES"); // SpatialLocationsPreserved
+  setText(image, 0x0028135a, "CS", source->isTile ? "NO" : "YES"); // SpatialLocationsPreserved
   setSequence(
     image, 0x0040a170, { codeOf("DCM", "121322", "Source image for image processing operation") });
   DerivedSet derivation;

@@ -33,6 +33,10 @@ void vtkTractWriter::WriteData()
     const brainshift::Tracts tracts =
       brainshift::withBeginning("Tract file " + this->FileName + " cannot be written: its input ",
         [&] { return brainshift::tractsOf(vtkPolyData::SafeDownCast(this->GetInput())); });
+    brainshift::throwIfAny(tracts.points.empty()
+        ? "Tract file " + this->FileName + " cannot be written: its input has no streamlines. " +
+          "Check that what they are from could be read"
+        : "");
     brainshift::writeTractFile(this->FileName, this->Volume, tracts, warnings);
   });
   if (!this->Problem.empty())

@@ -558,17 +558,25 @@ void readPlace(TextHeader& header)
   }
   const std::size_t dimensions = dimensionsOf(header, hasTime);
   header.space = spaceText.empty() ? HeaderSpace::RAS : space->second.first;
+  // Old segmentations of 3D Slicer have four axes of space, the last for segments; Slicer counts
+  // them as LPS.
+  const bool isOldSegmentation =
+    spaceText.empty() && dimensions > 3 && !header.text.keyed("Segment0_ID").empty();
   if (spaceText.empty() && dimensions > 3)
   {
     header.space = HeaderSpace::LPS;
+  }
+  if (spaceText.empty() && dimensions > 3 && !isOldSegmentation)
+  {
     header.warnings.emplace_back("names no space for its 4 dimensions, as ITK and SimpleITK write "
                                  "them; it counts as left-posterior-superior-time, as there");
   }
   const AxisFields fields = fieldsOfAxes(header);
   if (header.text.has("space directions"))
   {
-    header.knowsSides = !spaceText.empty() && space->second.second;
+    header.knowsSides = isOldSegmentation || (!spaceText.empty() && space->second.second);
     readDirections(fields, dimensions, header);
+    header.axes.back().kind = isOldSegmentation ? "domain" : header.axes.back().kind; // no time
     return;
   }
   if (header.text.has("space origin") || header.text.has("space units"))

@@ -3,7 +3,7 @@
 /// Volumes in MetaImage (.mha, .mhd) and NRRD (.nrrd, .nhdr) files.
 ///
 /// Three axes must be axes of space. One axis before them is the components of a voxel, or time, or
-/// the layers of a segmentation; one after them is time.
+/// the layers of a segmentation; one after them is time, or the layers of an old segmentation.
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/TextHeader.h"
@@ -25,7 +25,8 @@ namespace
 {
 // One segment of a file, as 3D Slicer names it. Names such as `Segment0_LabelValue` are Slicer's. A
 // file may have several layers, so that segments may overlap. Then each segment has a layer, from
-// 0 on. Files of 3D Slicer before 4.11 name no layers: segment i is where component i is 1.
+// 0 on. Files of 3D Slicer before 4.11 name no layers: segment i is where component i is 1, or, in
+// still older ones, step i of the last of four axes of space.
 struct Segment
 {
   Label label; // in its layer
@@ -134,6 +135,7 @@ void requireOneEach(std::size_t segments, std::size_t layered, std::size_t compo
 }
 
 // The segments of a header; none if it has none. One without a name gets its ID as the name.
+// `components`: layers of the file.
 std::vector<Segment> segmentsOf(const HeaderText& text, std::size_t components)
 {
   std::vector<Segment> segments;
@@ -150,7 +152,8 @@ std::vector<Segment> segmentsOf(const HeaderText& text, std::size_t components)
     const std::string name = text.keyed(prefix + "Name");
     label.name = name.empty() ? id : name;
     label.value = wholeIn(text.keyed(prefix + "LabelValue"), 1);
-    label.color = colorIn(text.keyed(prefix + "Color"));
+    const std::string color = text.keyed(prefix + "Color");
+    label.color = colorIn(color.empty() ? text.keyed(prefix + "DefaultColor") : color);
     label.terms = termsIn(text.keyed(prefix + "Tags"));
     const std::string layer = text.keyed(prefix + "Layer");
     layered += layer.empty() ? 0 : 1;
@@ -265,6 +268,25 @@ std::string trackedTransform(const HeaderText& text)
   return "";
 }
 
+// A file of a probe's pictures is no volume.
+void refuseTrackedPictures(const HeaderText& text, const std::string& transform)
+{
+  const std::vector<double> sides = numbersIn(text.valueOf({ text.isNRRD ? "sizes" : "DimSize" }));
+  if (transform.empty() || sides.size() != 3)
+  {
+    return;
+  }
+  if (!(sides[0] > 0.0))
+  {
+    throw Problem(joined("holds ", sides[2], " poses of a tracked probe (", shownWords(transform),
+      ") and no picture; open it in PLUS or 3D Slicer (SlicerIGT)"));
+  }
+  throw Problem(joined("holds ", sides[2],
+    " pictures of a tracked probe, each at a place of its own (", shownWords(transform),
+    "), and no volume; make a volume of them in PLUS or 3D Slicer (SlicerIGT, Volume "
+    "Reconstruction)"));
+}
+
 class TextHeaderVolume : public VolumeFile
 {
 public:
@@ -293,6 +315,18 @@ private:
   // False if `progress` says stop.
   bool readAll(const Progress& progress);
   void loadPart(std::size_t volume, const Progress& progress, StoredVoxels& voxels) const;
+  // The step along the last axis that has a volume of the series, or the layer that is shown.
+  std::size_t stepOf(std::size_t volume) const
+  {
+    return this->StepsAreLayers ? static_cast<std::size_t>(this->ShownLayer) : volume;
+  }
+  // Which of the numbers of a voxel are shown.
+  int componentOf(std::size_t volume) const
+  {
+    return this->TupleIsTime ? static_cast<int>(volume)
+      : this->StepsAreLayers ? 0
+                             : this->ShownLayer;
+  }
 
   TextFormat Format;
   std::string Layer;
@@ -303,6 +337,7 @@ private:
   std::size_t Tuple = 1;    // numbers of the axis before those of space
   bool TupleIsTime = false; // its numbers are volumes
   std::size_t Steps = 1;    // volumes along the axis after those of space
+  bool StepsAreLayers = false;
   // All numbers, kept for the other volumes of a series.
   vtkSmartPointer<vtkDataArray> Numbers;
 };
@@ -328,15 +363,9 @@ void TextHeaderVolume::readHeader(const std::string& fileName, VolumeHeader& hea
   {
     throw Problem(isNRRD ? "is an NRRD file and no MetaImage" : "does not begin with NRRD");
   }
-  throwIfAny(problem);
   const std::string tracked = trackedTransform(this->Stored.text);
-  if (!tracked.empty() && this->Stored.axes.size() == 3)
-  {
-    throw Problem("holds " + std::to_string(this->Stored.axes[2].count) +
-      " pictures of a tracked probe, each at a place of its own (" + shownWords(tracked) +
-      "), and no volume; make a volume of them in PLUS or 3D Slicer (SlicerIGT, Volume "
-      "Reconstruction)");
-  }
+  refuseTrackedPictures(this->Stored.text, tracked);
+  throwIfAny(problem);
   this->arrange(header);
   requireNumbers(this->Stored);
   warnOfSurplus(this->Stored);
@@ -409,19 +438,23 @@ void TextHeaderVolume::arrange(VolumeHeader& header)
     this->Stored.warnings.push_back("does not say what its first axis is (kinds); its " +
       std::to_string(this->Tuple) + " numbers at each voxel count as volumes of a series");
   }
+  this->StepsAreLayers = hasSteps && first == 0 && axes.back().kind == "domain" &&
+    !this->Stored.text.keyed("Segment0_ID").empty();
   header.dimensions = this->Dimensions;
   header.components = this->TupleIsTime ? 1 : static_cast<int>(this->Tuple);
-  header.times = this->TupleIsTime ? timesOf(axes[0], this->Stored.warnings)
-    : hasSteps                     ? timesOf(axes.back(), this->Stored.warnings)
-                                   : evenTimes(1, 1.0);
+  header.times = this->TupleIsTime      ? timesOf(axes[0], this->Stored.warnings)
+    : hasSteps && !this->StepsAreLayers ? timesOf(axes.back(), this->Stored.warnings)
+                                        : evenTimes(1, 1.0);
 }
 
 void TextHeaderVolume::takeSegments(VolumeHeader& header)
 {
   this->ShownLayer = 0;
-  const std::vector<Segment> segments = segmentsOf(this->Stored.text, this->Tuple);
-  const bool hasLayers = !segments.empty() && this->Tuple > 1 && this->Steps == 1;
-  const int count = hasLayers ? static_cast<int>(this->Tuple) : 0;
+  const std::size_t layers = this->StepsAreLayers ? this->Steps : this->Tuple;
+  const std::vector<Segment> segments = segmentsOf(this->Stored.text, layers);
+  const bool hasLayers =
+    !segments.empty() && layers > 1 && (this->Steps == 1 || this->StepsAreLayers);
+  const int count = hasLayers ? static_cast<int>(layers) : 0;
   for (int i = 0; i < count; ++i)
   {
     const std::string names = namesIn(segments, i);
@@ -463,7 +496,8 @@ void TextHeaderVolume::loadPart(
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Stored.numberType));
   const std::size_t bytes = this->Tuple * static_cast<std::size_t>(numbers->GetDataTypeSize());
   const StoredBox box{ this->Dimensions, voxels.wanted, bytes };
-  const auto skip = volume * (static_cast<std::uint64_t>(this->Stored.dataBytes()) / this->Steps);
+  const auto skip =
+    this->stepOf(volume) * (static_cast<std::uint64_t>(this->Stored.dataBytes()) / this->Steps);
   numbers->SetNumberOfComponents(static_cast<int>(this->Tuple));
   numbers->SetNumberOfTuples(static_cast<vtkIdType>(box.voxelCount()));
   bool stopped = false;
@@ -474,7 +508,7 @@ void TextHeaderVolume::loadPart(
     });
   if (!stopped)
   {
-    voxels.firstComponent = this->ShownLayer;
+    voxels.firstComponent = this->componentOf(volume);
     voxels.showWanted(numbers);
   }
 }
@@ -508,10 +542,12 @@ void TextHeaderVolume::load(std::size_t volume, const Progress& progress, Stored
   }
   const vtkIdType count = this->Numbers->GetNumberOfValues() / static_cast<vtkIdType>(this->Steps);
   voxels.show(this->Dimensions,
-    this->Steps > 1 ? partOf(this->Numbers, static_cast<vtkIdType>(volume) * count, count)
-                    : this->Numbers);
-  voxels.firstComponent = this->TupleIsTime ? static_cast<int>(volume) : this->ShownLayer;
-  const bool isSeries = this->Steps > 1 || (this->TupleIsTime && this->Tuple > 1);
+    this->Steps > 1
+      ? partOf(this->Numbers, static_cast<vtkIdType>(this->stepOf(volume)) * count, count)
+      : this->Numbers);
+  voxels.firstComponent = this->componentOf(volume);
+  const bool isSeries =
+    (this->Steps > 1 && !this->StepsAreLayers) || (this->TupleIsTime && this->Tuple > 1);
   if (!isSeries)
   {
     this->Numbers = nullptr; // a series is kept: its next step comes from it

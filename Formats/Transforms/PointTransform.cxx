@@ -393,22 +393,36 @@ Grid samplesOf(const LinkGrid& link, const glm::dvec3& first, const glm::dvec3& 
 }
 }
 
-glm::dvec3 mapped(const PointTransform& transform, const glm::dvec3& from)
+glm::dvec3 mapped(const PointTransform& transform, const glm::dvec3& from, double* missMm)
 {
   glm::dvec3 point = from;
   for (const TransformLink& link : transform.links)
   {
+    const glm::dvec3 before = point;
     point = std::visit([&](const auto& kind) { return mappedBy(kind, point); }, link);
+    if (missMm && std::holds_alternative<InverseLink>(link)) // which is solved
+    {
+      const glm::dvec3 back =
+        std::visit([&](const auto& kind) { return mappedBackBy(kind, point); }, link);
+      *missMm = std::max(*missMm, glm::distance(back, before));
+    }
   }
   return point;
 }
 
-glm::dvec3 mappedBack(const PointTransform& transform, const glm::dvec3& to)
+glm::dvec3 mappedBack(const PointTransform& transform, const glm::dvec3& to, double* missMm)
 {
   glm::dvec3 point = to;
   for (auto link = transform.links.rbegin(); link != transform.links.rend(); ++link)
   {
+    const glm::dvec3 before = point;
     point = std::visit([&](const auto& kind) { return mappedBackBy(kind, point); }, *link);
+    if (missMm && !std::holds_alternative<InverseLink>(*link))
+    {
+      const glm::dvec3 forth =
+        std::visit([&](const auto& kind) { return mappedBy(kind, point); }, *link);
+      *missMm = std::max(*missMm, glm::distance(forth, before));
+    }
   }
   return point;
 }

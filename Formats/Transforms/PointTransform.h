@@ -103,17 +103,26 @@ struct PointTransform
   std::vector<std::string> stories{}; ///< what each file says and leads to, one sentence each
 };
 
-/** Where the chain takes a point (mm). NaN where a field has no number. */
+/** Solved positions that miss by more (mm) are told. */
+constexpr double ToldMissMm = 1e-3;
+
+/**
+ * Where the chain takes a point (mm). NaN where a field has no number.
+ *
+ * @param missMm   how far the inverse of a link in it misses at most, if it is to be known
+ */
 VTKBRAINSHIFTFORMATS_EXPORT glm::dvec3 mapped(
-  const PointTransform& transform, const glm::dvec3& from);
+  const PointTransform& transform, const glm::dvec3& from, double* missMm = nullptr);
 
 /**
  * The point that the chain takes to `to`, to 1e-6 mm where the chain does not fold and does not
  * jump; elsewhere the best one that was found. NaN where points of a field without a number are in
  * the way.
+ *
+ * @param missMm   how far a link misses at most, if it is to be known
  */
 VTKBRAINSHIFTFORMATS_EXPORT glm::dvec3 mappedBack(
-  const PointTransform& transform, const glm::dvec3& to);
+  const PointTransform& transform, const glm::dvec3& to, double* missMm = nullptr);
 
 /** Reverses x and y on both sides: this leads from LPS to RAS and back. */
 VTKBRAINSHIFTFORMATS_EXPORT void reverseXY(PointTransform& transform);

@@ -15,7 +15,7 @@ from .mrmltransforms import KINDS, Link, Transforms, files_of, merged, motion_in
 from .points import taken_by
 from .transforms import read_transform
 
-VOLUMES, MODELS = ("Volume", "LabelMapVolume"), ("Model", "FiberBundle")
+VOLUMES, MODELS = ("Volume", "LabelMapVolume", "VectorVolume"), ("Model", "FiberBundle")
 SEGMENTATIONS = ("Segmentation",)
 #: Markups whose points are all that they are, and those that are more than their points.
 POINTS = ("MarkupsFiducial",)
@@ -32,7 +32,8 @@ _SETTINGS = frozenset("""
     SubjectHierarchyItem TableView Unit View VolumeProperty VolumePropertyJsonStorage
     VolumePropertyStorage VolumeRendering VolumeRenderingParameters dGEMRICProceduralColor
     DiffusionTensorDisplayProperties DisplayableHierarchy Hierarchy HierarchyStorage ModelHierarchy
-    AnnotationHierarchy ViewLayout LinearTransformDisplay""".split())
+    AnnotationHierarchy AnnotationHierarchyNode ViewLayout LinearTransformDisplay ChartView
+    IGTLConnector SequenceBrowser""".split())
 
 _VOLUME_READERS = {
     ".nrrd": "NRRDVolumeReader", ".nhdr": "NRRDVolumeReader", ".nii": "NIFTIVolumeReader",
@@ -118,7 +119,11 @@ class _Opening:
             self.layers(node, kind, links, (_reader_of(path), path))
             return
         if not path.lower().endswith((".dcm", ".ima")) or links:
-            raise SceneProblem(f"is in {os.path.basename(path)}; save it as .nrrd in Slicer")
+            raise SceneProblem(
+                f"is in {os.path.basename(path)}; save it as " +
+                (".nrrd in Slicer" if kind == "volumes" else
+                 ".seg.nrrd in Slicer, after its binary labelmap was made the source "
+                 "representation"))
         self.keep(kind, node, node.name, _made("DICOMVolumeReader", node.name, "FileName", path))
 
     def layers(self, node, kind, links, reader_of):
@@ -241,7 +246,7 @@ class _Opening:
         if not reader.GetDataInformation().DataSetTypeIsA("vtkPolyData"):
             kind = reader.GetDataInformation().GetPrettyDataTypeString()
             simple.Delete(reader)
-            raise SceneProblem(f"is no surface but {kind}")
+            raise SceneProblem(f"is no surface but {kind}; save its surface as a model in Slicer")
         if _axes_of_model(reader, path, end, storage) == "LPS":
             reader = simple.Transform(registrationName=free_name(self.rest_name(node, links)),
                                       Input=reader)

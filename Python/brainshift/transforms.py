@@ -3,6 +3,7 @@
 
 import math
 import os
+import warnings
 
 from .files import require_read, save_field
 from .views import world_axes
@@ -10,6 +11,8 @@ from .views import world_axes
 #: Reverses x and y: from LPS, in which ITK's files are, to RAS and back.
 _LPS = (-1.0, -1.0, 1.0, 1.0)
 _DIRECTIONS = ("backward", "forward")
+#: Solved positions that miss by more (mm) are told.
+_TOLD_MISS_MM = 1e-3
 #: Programs whose files do not name them, and their words in the property MatrixProgram.
 _PROGRAMS = {None: "Unknown", "fsl": "FSL", "niftyreg": "NiftyReg", "spm": "SPM"}
 
@@ -84,13 +87,15 @@ class Transform:
         - `points`: an N x 3 array of positions in mm, world axes.
 
         Returns an N x 3 array of positions in mm, world axes. A point outside a B-spline or a field
-        does not move, as in ITK. A point where the field has no finite number becomes NaN.
+        does not move, as in ITK. A point where the field has no finite number becomes NaN. Files
+        that store the inverse of a map are solved for each point, as in `map_back`.
         """
         return self._mapped(points, "MappedPoints")
 
     def map_back(self, points):
         """Take points of the moving image to the fixed one: the inverse of `map`, solved for each
         point. Points and result as in `map`. Where the map folds, one of its places is returned.
+        Where it jumps, the best position that was found; a warning says how far it misses.
         """
         return self._mapped(points, "MappedBackPoints")
 
@@ -106,7 +111,13 @@ class Transform:
         self._report.GetProperty("Points").SetElements(numbers)
         self._report.UpdateVTKObjects()
         self._report.UpdatePropertyInformation()
-        return _answer(self._report, answer).reshape(-1, 3)
+        mapped = _answer(self._report, answer).reshape(-1, 4)
+        missed = mapped[:, 3] > _TOLD_MISS_MM
+        if missed.any():
+            warnings.warn(f"{missed.sum()} of {len(points)} points miss their positions by up to "
+                          f"{mapped[:, 3].max():.2g} mm: the transform folds or jumps there.",
+                          stacklevel=3)
+        return mapped[:, :3].copy()
 
 
 def read_transform(files, world="RAS", fixed_image=None, moving_image=None, program=None):

@@ -271,19 +271,16 @@ std::int64_t countOf(const glm::ivec3& side)
   return static_cast<std::int64_t>(side.x) * side.y * side.z;
 }
 
-// So many slots, some less or, if `orMore`, some more. A processor that draws keeps the rows of a
-// texture one after the other: the fewer slots lie side by side, the nearer in memory are the rows
-// and slices of one. A graphics card does not care.
+// So many slots, some less or, if `orMore`, some more, in a block as nearly a cube as is simple.
 glm::ivec3 slotsASide(std::int64_t slots, int most, bool orMore)
 {
-  const auto rowsOf = [](std::int64_t slots, std::int64_t inRow) {
-    return (slots + inRow - 1) / inRow;
-  };
-  const std::int64_t longest = most;
-  const std::int64_t x = std::min(rowsOf(slots, longest * longest), longest);
-  const std::int64_t y = std::min(rowsOf(slots, x * longest), longest);
-  const std::int64_t z = orMore ? rowsOf(slots, x * y) : slots / (x * y);
-  return { x, y, std::clamp<std::int64_t>(z, 1, longest) };
+  const auto within = [most](double side) { return std::clamp(static_cast<int>(side), 1, most); };
+  glm::ivec3 side(1);
+  side.x = within(std::cbrt(static_cast<double>(slots)));
+  side.y = within(std::sqrt(static_cast<double>(slots) / side.x));
+  const double layers = static_cast<double>(slots) / (side.x * side.y);
+  side.z = within(orMore ? std::ceil(layers) : layers);
+  return side;
 }
 }
 

@@ -10,8 +10,9 @@ import pydicom
 from brainshift_testing import (assert_says, data, load_plugin, messages, output, picture,
                                 run_tests, scratch, show_volume, view_along, volume, voxels)
 from dicom_testing import assert_placed as assert_read
-from dicom_testing import set_pixels
+from dicom_testing import enhanced, set_pixels
 from pydicom.dataset import FileDataset, FileMetaDataset
+from pydicom.sequence import Sequence
 from saving_testing import assert_fails, assert_nothing_left, full_disk
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
 
@@ -221,6 +222,26 @@ def test_volumes_of_the_lps_world():
         points, _ = points_and_values(slices_of(folder))
         center = numpy.array(output(right).GetCenter()) @ half_turn
         assert numpy.allclose(points.mean(axis=0), center, atol=1e-3)
+
+
+def test_an_enhanced_scan_gives_slices_what_its_groups_say():
+    """RepetitionTime and EchoTrainLength, EchoTime and empty ones: a slice of MR must have them."""
+    timing, echo = pydicom.Dataset(), pydicom.Dataset()
+    timing.RepetitionTime, timing.EchoTrainLength = "2300", "7"
+    echo.EffectiveEchoTime = 2.98
+    for whole in (True, False):
+        scan = enhanced(numbers(numpy.int16)[None])
+        shared = scan.SharedFunctionalGroupsSequence[0]
+        if whole:
+            shared.MRTimingAndRelatedParametersSequence = Sequence([timing])
+            shared.MREchoSequence = Sequence([echo])
+        name = scratch("like-enhanced.dcm")
+        scan.save_as(name, write_like_original=False)
+        folder = fresh("enhanced")
+        brainshift.save_dicom(source_of(numbers(numpy.int16)), folder, name)
+        for image in slices_of(folder):
+            said = image.RepetitionTime, image.EchoTime, image.EchoTrainLength
+            assert said == ((2300, 2.98, 7) if whole else (None, None, None)), said
 
 
 def test_gdcm_reads_the_series():

@@ -197,6 +197,21 @@ def palette(image, colors, first=0, entries=None):
         image[name + "PaletteColorLookupTableData"].VR = "OW"
 
 
+def test_a_label_map_has_its_padding_where_no_frame_is():
+    """As dcmqi writes what nobody classified."""
+    pixels = numpy.random.default_rng(7).integers(0, 6, (2, 5, 7))
+    image = segmentation([(None, 0, pixels[0]), (None, 2, pixels[1])], "LABELMAP",
+                         numbers=[0, 1, 2])
+    image.PixelPaddingValue = 5
+    reader, told = read(written(image))
+    assert_says(told, "marks voxels that are in no segment by 5 (PixelPaddingValue)",
+                "slices without a frame have it, too")
+    assert_placed(reader, affine_of(), numpy.stack([pixels[0], 0 * pixels[0] + 5, pixels[1]]),
+                  most=0)
+    image.PixelPaddingValue = 300
+    refused(image, "has the PixelPaddingValue 300 among labels", "from 0 to 255")
+
+
 def test_a_palette_colours_labels():
     """Those that have no colour of their own."""
     pixels = numpy.arange(35, dtype=numpy.uint8).reshape(5, 7) % 4
@@ -253,6 +268,27 @@ def changed(change, count=3, **options):
     image = segmentation([(1, i, frame) for i, frame in enumerate(bits)], **options)
     change(image)
     return image
+
+
+def test_pictures_without_a_position_in_the_patient_are_refused():
+    def no_positions(image):
+        for group in image.PerFrameFunctionalGroupsSequence:
+            del group.PlanePositionSequence
+
+    def slide(image):
+        no_positions(image)
+        for group in image.PerFrameFunctionalGroupsSequence:
+            group.PlanePositionSlideSequence = Sequence([item(XOffsetInSlideCoordinateSystem=1.0)])
+
+    def tiled(image):
+        no_positions(image)
+        image.DimensionOrganizationType = "TILED_FULL"
+
+    refused(changed(no_positions), "is a segmentation of a picture that has no position in the "
+            "patient, such as an X-ray. Open it in the program that made it")
+    for change in (slide, tiled):
+        refused(changed(change), "has tiles of a slide under a microscope, which have no position "
+                "in a patient. Open it in a viewer of slides")
 
 
 def test_frames_on_no_grid_are_refused():

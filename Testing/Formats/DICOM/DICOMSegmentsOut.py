@@ -178,13 +178,17 @@ def test_colours_come_back_as_they_went():
         assert colours.GetTuple3(i) == (10 * (i + 1), 254 - i, 90), i
 
 
-def test_other_programs_find_a_file_of_the_standard():
-    like = scan()
-    path, _ = saved(labelled(like, random_labels(image_shape(like)), [(1, "one")]), like)
+def assert_of_the_standard(path):
     judged = subprocess.run([os.environ["BRAINSHIFT_DCIODVFY"], path], capture_output=True,
                             text=True, check=False)
     said = judged.stdout + judged.stderr
     assert "Error" not in said and "Segmentation" in said, said
+
+
+def test_other_programs_find_a_file_of_the_standard():
+    like = scan()
+    path, _ = saved(labelled(like, random_labels(image_shape(like)), [(1, "one")]), like)
+    assert_of_the_standard(path)
     shown = subprocess.run([os.environ["BRAINSHIFT_GDCMINFO"], path], capture_output=True,
                            text=True, check=False)
     assert_says(shown.stdout, "MediaStorage is 1.2.840.10008.5.1.4.1.1.66.4",
@@ -220,6 +224,20 @@ def test_a_multi_frame_scan_is_referred_to_by_frames():
     groups = pydicom.dcmread(made).PerFrameFunctionalGroupsSequence
     assert [group.DerivationImageSequence[0].SourceImageSequence[0].ReferencedFrameNumber
             for group in groups] == [1, 2, 3, 4]
+
+
+def test_a_mosaic_is_referred_to_as_one_picture():
+    like = data("dcm-qa-mosaic", "heads_first-00001.dcm")
+    labels = random_labels(image_shape(like), 1)
+    made, told = saved(labelled(like, labels), like)
+    assert not told, told
+    assert_of_the_standard(made)
+    groups = pydicom.dcmread(made).PerFrameFunctionalGroupsSequence
+    sources = [group.DerivationImageSequence[0].SourceImageSequence[0] for group in groups]
+    assert len(sources) == 36
+    for source in sources:
+        assert "ReferencedFrameNumber" not in source  # which only multi-frame images have
+        assert source.SpatialLocationsPreserved == "NO"  # its tiles are beside each other
 
 
 def test_other_numbers_are_said():

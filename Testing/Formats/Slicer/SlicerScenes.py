@@ -415,6 +415,29 @@ def test_bundles():
     assert os.listdir(elsewhere)
 
 
+def test_a_volume_of_colours_opens_and_what_holds_no_data_is_not_mentioned():
+    scene = Written("colours")
+    colours = numpy.random.default_rng(4).integers(0, 256, (4, 5, 6, 3)).astype(numpy.uint8)
+    with open(scene.path("c.nrrd"), "wb") as file:
+        file.write(b"NRRD0005\ntype: uchar\ndimension: 4\nsizes: 3 6 5 4\n"
+                   b"kinds: RGB-color domain domain domain\nencoding: raw\n"
+                   b"space: left-posterior-superior\nspace origin: (1,2,3)\n"
+                   b"space directions: none (2,0,0) (0,2,0) (0,0,2)\n\n" + colours.tobytes())
+    scene.stored("VectorVolume", "Colours", "c.nrrd")
+    for kind in ("IGTLConnector", "SequenceBrowser", "ChartView", "AnnotationHierarchyNode"):
+        scene.node(kind, kind, name=kind)
+    found = opened(scene.written())
+    assert not found.notes, found.notes
+    image = output(found.volumes["Colours"])
+    assert image.GetDimensions() == (6, 5, 4)
+    shown = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(4, 5, 6, 3)
+    for k, j, i in numpy.ndindex(4, 5, 6):
+        place = [0.0, 0.0, 0.0]
+        image.TransformIndexToPhysicalPoint(i, j, k, place)
+        x, y, z = numpy.rint((numpy.array(place) * (-1, -1, 1) - (1, 2, 3)) / 2).astype(int)
+        assert numpy.array_equal(shown[k, j, i], colours[z, y, x]), (k, j, i)
+
+
 def said(scene, count=1, **options):
     """The only notes of a scene, which has nothing else."""
     found = opened(scene.written(), **options)
@@ -455,6 +478,9 @@ def test_what_is_not_opened_is_said():
                                                       storage={"centerImage": 1}))
     refused("save it as .nrrd", lambda scene: (open(scene.path("v.png"), "w").close(),
                                                scene.stored("Volume", "V", "v.png")))
+    refused("save it as .seg.nrrd in Slicer, after its binary labelmap",
+            lambda scene: (open(scene.path("s.seg.vtm"), "w").close(),
+                           scene.stored("Segmentation", "S", "s.seg.vtm")))
     refused("cannot be read", lambda scene: (open(scene.path("v.nrrd"), "w").close(),
                                              scene.stored("Volume", "V", "v.nrrd")))
 

@@ -203,6 +203,18 @@ def test_writers_say_what_cannot_be():
             writer.UpdatePipeline()
         assert words in heard.text, (words, heard.text)
         assert not os.path.exists(name)
+    # A reader that failed has nothing to write: what is there stays.
+    unread = simple.TractReader(FileName=write_zip("unread.trx", parts(**{"header.json": b"{"})))
+    unread.UpdatePipeline()
+    name = write_zip("kept.trx", parts())
+    with open(name, "rb") as file:
+        kept = file.read()
+    writer = simple.servermanager.writers.TractWriter(Input=unread, FileName=name)
+    with messages() as heard:
+        writer.UpdatePipeline()
+    assert_says(heard.text, "its input has no streamlines")
+    with open(name, "rb") as file:
+        assert file.read() == kept
 
 
 def test_damaged_trx_files_end_in_one_sentence():

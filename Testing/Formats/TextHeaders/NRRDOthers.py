@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that NRRD files of four dimensions as ITK writes them open at their places and times, and
-# that displacement fields with vectors last or in RAS mean what the file says.
+# Proves that NRRD files of four dimensions as ITK writes them open at their places and times, that
+# those of old segmentations open layer by layer, and that displacement fields with vectors last or
+# in RAS mean what the file says.
 import os
 import subprocess
 
@@ -79,6 +80,49 @@ def test_four_dimensions_as_itk_writes_them():
         found, heard = read(simple.NRRDVolumeReader, named, times)
         assert "sides" not in heard, heard
         assert_same(found, right)
+
+
+def old_segmentation(layers):
+    """As 3D Slicer before 4.11 writes segments by ITK: along the last of four axes of space, with a
+    colour by default. `layers`: [segment, z, y, x]."""
+    sides = " ".join(map(str, reversed(layers.shape)))
+    lines = ["NRRD0004", "type: unsigned char", "dimension: 4", "space dimension: 4",
+             f"sizes: {sides}", "space directions: (-2,0,0,0) (0,-1.5,0,0) (0,0,3,0) (0,0,0,1)",
+             "kinds: domain domain domain domain", "encoding: raw", "space origin: (20,-30,-7,0)",
+             *(line for i in range(len(layers)) for line in (
+                 f"Segment{i}_ID:=s{i}", f"Segment{i}_Name:=part {i}",
+                 f"Segment{i}_DefaultColor:=0 {i} 1"))]
+    name = scratch(f"old{len(layers)}.seg.nrrd")
+    with open(name, "wb") as file:
+        file.write(("\n".join(lines) + "\n\n").encode() + layers.tobytes())
+    return name
+
+
+def test_segments_along_a_fourth_axis_of_space():
+    """No times, sides that are known, and a layer for each segment, as 3D Slicer reads them."""
+    layers = RANDOM.integers(0, 2, (2, 4, 5, 6)).astype(numpy.uint8)
+    with messages() as heard:
+        reader = simple.NRRDVolumeReader(FileName=old_segmentation(layers))
+        reader.UpdatePipeline()
+    assert "has 2 layers of segments" in heard.text and "part 1" in heard.text, heard.text
+    assert "left and right" not in heard.text, heard.text
+    assert len(reader.TimestepValues) <= 1
+    assert list(reader.GetProperty("LayerList")) == ["1: part 0", "2: part 1"]
+    for i, layer in enumerate(layers):
+        reader.Layer = f"{i + 1}"
+        reader.UpdatePipeline()
+        image = reader.GetClientSideObject().GetOutputDataObject(0)
+        shown = vtk_to_numpy(image.GetPointData().GetScalars())
+        assert numpy.array_equal(shown, layer.ravel())
+        assert image.GetOrigin() == (-20.0, 30.0, -7.0) and image.GetSpacing() == (2, 1.5, 3)
+        fields = image.GetFieldData()
+        assert fields.GetAbstractArray("WorldAxes").GetValue(0) == "RAS"
+        assert vtk_to_numpy(fields.GetArray("LabelColors")).tolist() == [[0, 255 * i, 255]]
+        assert fields.GetAbstractArray("LabelNames").GetValue(0) == f"part {i}"
+    with messages() as heard:
+        reader = simple.NRRDVolumeReader(FileName=old_segmentation(layers[:1]))
+        reader.UpdatePipeline()
+    assert not heard.text, heard.text
 
 
 def header(**fields):

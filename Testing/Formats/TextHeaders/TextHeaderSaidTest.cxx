@@ -190,6 +190,14 @@ TEST(TextHeaderSaid, PicturesOfATrackedProbeAreNoVolume)
     "holds 2 pictures of a tracked probe, each at a place of its own");
   expectRefused<NRRD>("sweep.igs.nrrd", nrrd(Placed + tracked(1) + ":=" + place + "\n"),
     "SlicerIGT, Volume Reconstruction");
+  expectRefused<NRRD>("flat.igs.nrrd", // as PLUS writes it
+    nrrd("space dimension: 2\nspace directions: (1,0) (0,1) none\nspace origin: (0,0)\n"
+         "kinds: domain domain list\n" +
+      tracked(1) + ":=" + place + "\n"),
+    "holds 2 pictures of a tracked probe");
+  expectRefused<Meta>("poses.igs.mha",
+    metaImage({ { "DimSize", "0 0 2" }, { tracked(0), place }, { tracked(1), place } }),
+    "holds 2 poses of a tracked probe (seq_frame0001_probetotrackertransform) and no picture");
   EXPECT_EQ(saidOf<Meta>("one.mha",
               metaImage({ { tracked(0), place }, { "Seq_Frame0001_Timestamp", "2.5" } })),
     "");

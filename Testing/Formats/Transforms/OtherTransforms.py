@@ -5,6 +5,7 @@
 import json
 import os
 import subprocess
+import warnings
 
 import minc_files
 import nibabel
@@ -231,6 +232,26 @@ def test_xfm_leads_as_libminc_leads_it():
         away = largest(transform.map(mapped_by_libminc(file, inside)), inside)
         print(f"{name}.xfm: {away:.6f} mm")
         assert away < NEAR and largest(transform.map(inside), inside) > 1.0, (name, away)
+
+
+def test_positions_that_no_point_reaches_are_told():
+    """The MNI's cubic displacements jump within a cell of the edge, where they become linear."""
+    affine = numpy.array(((0, 0, -5.0, 62), (0, 6.0, 0, -75), (5.5, 0, 0, -35), (0, 0, 0, 1)))
+    vectors = RANDOM.uniform(-1.5, 1.5, (21, 22, 25, 3))
+    minc_files.write_vectors(scratch("rough_grid_0.mnc"), vectors, affine)
+    file = xfm("rough.xfm", "Transform_Type = Grid_Transform;\n"
+               "Displacement_Volume = rough_grid_0.mnc;\n")
+    transform = brainshift.read_transform(file)
+    points = RANDOM.uniform((54, -55, -15), (59, 30, 45), (400, 3))
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        found = transform.map(points)  # the inverse of what the file has
+    back = numpy.linalg.norm(transform.map_back(found) - points, axis=1)
+    missed = int((back > 1e-3).sum())
+    assert missed > 0, "the field has no jump"
+    [warning] = told
+    assert_says(str(warning.message), f"{missed} of 400 points miss their positions by up to",
+                f"{back.max():.2g} mm")
 
 
 def test_xfm_that_is_refused():

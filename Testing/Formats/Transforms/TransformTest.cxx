@@ -193,7 +193,7 @@ TEST(TransformReader, AnswersWithoutAPipelineAndSaysWhatIsWrong)
   ASSERT_EQ(reader->GetMatrix()->GetNumberOfValues(), 16);
   EXPECT_EQ(reader->GetMatrix()->GetValue(7), 5.0);
   reader->AddPoint(1.0, 2.0, 3.0);
-  ASSERT_EQ(reader->GetMappedPoints()->GetNumberOfValues(), 3);
+  ASSERT_EQ(reader->GetMappedPoints()->GetNumberOfValues(), 4);
   EXPECT_EQ(reader->GetMappedPoints()->GetValue(0), 5.0);
 }
 
