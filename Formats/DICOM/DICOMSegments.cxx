@@ -194,7 +194,7 @@ double stepOf(const DICOMFrame& first, const std::vector<double>& placesMm, DICO
     {
       grid.warnings.push_back(joined("has frames of segments that are at least ",
         roundedText(leastMm), " mm apart and slices of ", roundedText(step),
-        " mm (SpacingBetweenSlices or SliceThickness), which count: those between are empty"));
+        " mm (SpacingBetweenSlices or SliceThickness), which count: those between have no frame"));
     }
     if (!(between > 0.0) && first.knowsStep && step > 1.5 * first.sliceStepMm)
     {

@@ -532,6 +532,11 @@ std::size_t dimensionsOf(const TextHeader& header, bool hasTime)
   const bool isNamed = header.text.has("space");
   const bool isGood = numbers.size() == 1 &&
     (isNamed ? numbers[0] == static_cast<double>(named) : numbers[0] == 3.0 || numbers[0] == 4.0);
+  if (!isGood && text == "2")
+  {
+    throw Problem("has the space dimension 2: it is a picture and no volume; open it in a program "
+                  "for pictures");
+  }
   if (!isGood)
   {
     throw Problem("has the space dimension " + text + "; it must be " +

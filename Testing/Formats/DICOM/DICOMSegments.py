@@ -340,7 +340,7 @@ def test_small_shifts_and_odd_steps_are_said():
             0].SpacingBetweenSlices = "1.25"
 
     reader, told = read(written(changed(wide)))
-    assert_says(told, "at least 2.5 mm apart and slices of 1.25 mm", "those between are empty")
+    assert_says(told, "at least 2.5 mm apart and slices of 1.25 mm", "those between have no frame")
     assert output(reader).GetDimensions() == (7, 5, 5)
 
     def unsaid(image):
