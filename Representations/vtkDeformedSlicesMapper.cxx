@@ -177,18 +177,7 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     return true; // nothing to draw yet
   }
   this->UpdateDeformation(image);
-  TissueRequest tissue;
-  tissue.property = volume->GetProperty();
-  tissue.values = values;
-  tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
-  tissue.labels = isLabelMap(image);
-  tissue.nearest = tissue.labels || this->Interpolation == Nearest;
-  tissue.range = rangeOf(
-    this->Internal->Part, image, values, drawnComponents(tissue.property, values.scalars).scalar);
-  const ReferenceVolume reference = readReference(image);
-  tissue.compared = reference.voxels &&
-    (reference.show == ReferenceShow::Reference ||
-      (reference.show == ReferenceShow::Both && this->Comparison != NoComparison));
+  TissueRequest tissue = this->TissueOf(image, volume->GetProperty(), values);
   Device& device = this->Internal->Devices.of(window);
   GpuTask gpu(window, this->Internal->Count);
   gpu.moving = isMoving(window->GetDesiredUpdateRate());
@@ -214,6 +203,28 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   this->Tell(gpu);
   problem = gpu.problem;
   return drawn;
+}
+
+TissueRequest vtkDeformedSlicesMapper::TissueOf(
+  vtkImageData* image, vtkVolumeProperty* property, const DrawnValues& values)
+{
+  TissueRequest tissue;
+  tissue.property = property;
+  tissue.values = values;
+  tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
+  tissue.labels = isLabelMap(image);
+  tissue.nearest = tissue.labels || this->Interpolation == Nearest;
+  tissue.range =
+    rangeOf(this->Internal->Part, image, values, drawnComponents(property, values.scalars).scalar);
+  const ReferenceVolume reference = readReference(image);
+  tissue.compared = reference.voxels &&
+    (reference.show == ReferenceShow::Reference ||
+      (reference.show == ReferenceShow::Both && this->Comparison != NoComparison));
+  if (!this->Internal->Part) // ranks stream nothing
+  {
+    tissue.finerBy = finerVoxelsBy(image, tissue, /*ofSlices*/ true);
+  }
+  return tissue;
 }
 
 void vtkDeformedSlicesMapper::Tell(const GpuTask& gpu)

@@ -26,6 +26,7 @@
 #include <string> // for messages
 
 class vtkImageData;
+class vtkVolumeProperty;
 namespace brainshift
 {
 struct Counters;
@@ -256,6 +257,8 @@ private:
 
   // False, with a problem, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
+  brainshift::TissueRequest TissueOf(
+    vtkImageData* image, vtkVolumeProperty* property, const brainshift::DrawnValues& values);
   brainshift::MemoryNeed NeedOf(const brainshift::TissueRequest& tissue);
   bool DrawPlanes(brainshift::GpuTask& gpu, const brainshift::DrawnVolume& seen, Device& device,
     const brainshift::TissueRequest& tissue);

@@ -230,6 +230,7 @@ int* vtkDeformedVolumeReport::GetDetail()
   this->Detail[3] = count.gpuBricksLackRoom > 0 ? 1 : 0;
   this->Detail[4] = count.gpuBricksComing > 0 ? 1 : 0;
   this->Detail[5] = count.gpuBricksRead > 0 ? 1 : 0;
+  this->Detail[6] = count.gpuNeedsPyramid > 0 ? 1 : 0;
   return this->Detail;
 }
 
@@ -252,9 +253,10 @@ const char* vtkDeformedVolumeReport::GetCounters()
        << "\nsamplesTaken " << count.samplesTaken << "\nsamplesSkipped " << count.samplesSkipped
        << "\nimageScale " << count.imageScale << "\nprogramsCompiled " << count.programsCompiled
        << "\ngpuScalarBytes " << count.gpuScalarBytes << "\ngpuOtherBytes " << count.gpuOtherBytes
-       << "\ngpuVoxelsPerTexel " << count.gpuVoxelsPerTexel << "\ngpuLevel " << count.gpuLevel
-       << "\ngpuBricks " << count.gpuBricks << "\ngpuBricksWanted " << count.gpuBricksWanted
-       << "\ngpuBricksComing " << count.gpuBricksComing << "\ngpuBricksRead " << count.gpuBricksRead
+       << "\ngpuVoxelsPerTexel " << count.gpuVoxelsPerTexel << "\ngpuNeedsPyramid "
+       << count.gpuNeedsPyramid << "\ngpuLevel " << count.gpuLevel << "\ngpuBricks "
+       << count.gpuBricks << "\ngpuBricksWanted " << count.gpuBricksWanted << "\ngpuBricksComing "
+       << count.gpuBricksComing << "\ngpuBricksRead " << count.gpuBricksRead
        << "\ngpuBricksLackRoom " << count.gpuBricksLackRoom << "\ngpuFieldMicroseconds "
        << count.gpuFieldMicroseconds;
   this->Counters = text.str();

@@ -98,13 +98,14 @@ public:
   const char* GetCounters();
 
   /**
-   * Six numbers on what a Deformed Volume or Deformed Slices draw of a finer level: the level, -1:
-   * none; bricks that are there; bricks that are still to come, 0: a further picture would be the
-   * same; 1 if the view has more than there is room for, or 0; 1 while more are read, so that a
-   * picture a little later shows more, or 0; 1 if bricks were read that no picture has shown, or 0.
+   * Seven numbers on what a Deformed Volume or Deformed Slices draw of a finer level: the level,
+   * -1: none; bricks that are there; bricks that are still to come, 0: a further picture would be
+   * the same; 1 if the view has more than there is room for, or 0; 1 while more are read, so that a
+   * picture a little later shows more, or 0; 1 if bricks were read that no picture has shown, or 0;
+   * 1 if the volume is drawn coarser and an OME-Zarr image of it would bring such bricks, or 0.
    * Nothing is drawn.
    */
-  int* GetDetail() VTK_SIZEHINT(6);
+  int* GetDetail() VTK_SIZEHINT(7);
 
   ///@{
   /** Of Deformed Slices, see vtkDeformedSlicesMapper. Zeros if something else is shown. */
@@ -141,7 +142,7 @@ private:
   double SameTissue[3] = {};
   double SliceNormals[9] = {};
   double VoxelSteps[3] = {};
-  int Detail[6] = {};
+  int Detail[7] = {};
   std::string Counters;
 };
 

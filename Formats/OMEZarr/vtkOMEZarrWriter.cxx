@@ -7,6 +7,7 @@
 #include "Formats/Files/Text.h"
 #include "Formats/OMEZarr/PyramidStore.h"
 #include "Formats/Volumes/OutgoingVolume.h"
+#include "Formats/Volumes/WriterAtWork.h"
 
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
@@ -111,6 +112,7 @@ int vtkOMEZarrWriter::FillInputPortInformation(int, vtkInformation* info)
 
 int vtkOMEZarrWriter::Write()
 {
+  const WriterAtWork work(this);
   this->Work.reset();
   this->PiecesKept = 0;
   const std::string failed = "Store " + this->FileName +

@@ -92,10 +92,11 @@ glm::dmat4 affineOfRows(const double rows[16])
 }
 
 // What the header says beside where the voxels lie.
-void attachFacts(const brainshift::VolumeHeader& header, vtkImageData* volume)
+void attachFacts(
+  const brainshift::VolumeHeader& header, const std::string& array, vtkImageData* volume)
 {
   vtkDataArray* const scalars = volume->GetPointData()->GetScalars();
-  scalars->SetName(brainshift::ScalarsOfVolumes);
+  scalars->SetName(array.empty() ? brainshift::ScalarsOfVolumes : array.c_str());
   for (std::size_t i = 0; i < header.componentNames.size(); ++i)
   {
     scalars->SetComponentName(static_cast<vtkIdType>(i), header.componentNames[i].c_str());
@@ -164,6 +165,7 @@ void vtkVolumeFileReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Choice: " << this->Choice << "\n";
   os << indent << "ResampleSlices: " << this->ResampleSlices << "\n";
   os << indent << "Luminance: " << this->Luminance << "\n";
+  os << indent << "ArrayName: " << this->ArrayName << "\n";
   os << indent << "Level: " << this->Level << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "WorldFromFile:";
@@ -231,6 +233,16 @@ void vtkVolumeFileReader::SetLuminance(bool luminance)
   if (luminance != this->Luminance)
   {
     this->Luminance = luminance;
+    this->Modified();
+  }
+}
+
+void vtkVolumeFileReader::SetArrayName(const char* name)
+{
+  const std::string array = name ? name : "";
+  if (array != this->ArrayName)
+  {
+    this->ArrayName = array;
     this->Modified();
   }
 }
@@ -491,7 +503,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
     brainshift::warn(this, this->Stored->damage());
   }
   attachMeaning(shown, this->Stored->header());
-  attachFacts(this->Stored->header(), shown);
+  attachFacts(this->Stored->header(), this->ArrayName, shown);
   brainshift::SharedArrays().share(shown->GetPointData());
   brainshift::rememberLevels(shown,
     { this->Taken, this->FileName, this->Choice, 0, this->Channel, volume,

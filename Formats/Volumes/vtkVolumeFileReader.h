@@ -13,13 +13,13 @@
  * directions are right too. No image can hold sheared axes: they give a warning that names the
  * error in mm.
  *
- * Output: vtkImageData with the point scalars "Intensity". Their type is the type in the file. If
- * the file rescales them it is float32, or double for whole numbers of 4 bytes and more. A time
- * series has time steps, in seconds. The field array WorldAxes says RAS if the file knows the
- * patient's sides (WorldAxes.h). Names and colours of labels are attached where the file has them
- * (LabelTable.h). The field array Unit (string) is the unit of the numbers, SmallIsBright (one
- * byte) says that stations show small numbers bright; both only where the file says so. After an
- * error the output stays as it was, or is empty.
+ * Output: vtkImageData with the point scalars "Intensity" (ArrayName). Their type is the type in
+ * the file. If the file rescales them it is float32, or double for whole numbers of 4 bytes and
+ * more. A time series has time steps, in seconds. The field array WorldAxes says RAS if the file
+ * knows the patient's sides (WorldAxes.h). Names and colours of labels are attached where the file
+ * has them (LabelTable.h). The field array Unit (string) is the unit of the numbers, SmallIsBright
+ * (one byte) says that stations show small numbers bright; both only where the file says so. After
+ * an error the output stays as it was, or is empty.
  *
  * Reading can be aborted. Then the output is the volume that was last read to its end, or empty, a
  * warning says so, and nothing is read again before the reader is modified.
@@ -97,6 +97,12 @@ public:
    */
   void SetLuminance(bool luminance);
   bool GetLuminance() const { return this->Luminance; }
+  ///@}
+
+  ///@{
+  /** Name of the array of the voxels. Default: empty, which is Intensity. */
+  void SetArrayName(const char* name);
+  const char* GetArrayName() const { return this->ArrayName.c_str(); }
   ///@}
 
   ///@{
@@ -193,6 +199,7 @@ private:
   int ResampleSlices = 2;
   double WorldFromFile[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
   bool Luminance = false;
+  std::string ArrayName;
   int Level = -1;
   double MemoryLimit = 2048.0; // MiB
   int Channel = -1;

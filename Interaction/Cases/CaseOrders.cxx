@@ -11,9 +11,7 @@
 #include <pqServer.h>
 #include <pqView.h>
 
-#include <vtkSMProxyManager.h>
 #include <vtkSMSession.h>
-#include <vtkSMUndoStackBuilder.h>
 
 #include <QCoreApplication>
 #include <QCursor>
@@ -40,15 +38,6 @@ public:
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
 };
-
-// An order that was refused left nothing to undo but the way there and back.
-void forgetStep()
-{
-  if (vtkSMUndoStackBuilder* builder = vtkSMProxyManager::GetProxyManager()->GetUndoStackBuilder())
-  {
-    builder->Clear();
-  }
-}
 
 void drawAll()
 {

@@ -8,6 +8,9 @@
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
+#include <vtkSMProxyManager.h>
+#include <vtkSMUndoStackBuilder.h>
+
 #include <QCoreApplication>
 #include <QString>
 
@@ -24,6 +27,16 @@ inline bool isReplayed()
 {
   const pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
   return stack && (stack->getInUndo() || stack->getInRedo());
+}
+
+/// Lets the step to undo that is being recorded hold nothing so far. For an order that failed: it
+/// left nothing to undo but the way there and back.
+inline void forgetStep()
+{
+  if (vtkSMUndoStackBuilder* builder = vtkSMProxyManager::GetProxyManager()->GetUndoStackBuilder())
+  {
+    builder->Clear();
+  }
 }
 
 /// Translates a text of a function that belongs to no QObject.

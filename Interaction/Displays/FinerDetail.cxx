@@ -25,22 +25,20 @@
 
 namespace brainshift
 {
+std::vector<double> detailNumbersOf(pqDataRepresentation* display)
+{
+  const vtkSmartPointer<vtkSMProxy> report =
+    makeReport(display->getProxy(), "DeformedVolumeReport");
+  pointAt(report, "Representation", display->getProxy());
+  std::vector<double> numbers = answerOf(report, "Detail");
+  numbers.resize(DetailNumbers);
+  return numbers;
+}
+
 namespace
 {
 constexpr int EachMs = 100;    // how often it asks while bricks are read
 constexpr int AtMostMs = 1000; // without a picture while there are bricks to show
-
-// The numbers of the report's Detail, in its order.
-enum DetailNumber : std::size_t
-{
-  Level,
-  Drawn,
-  ToCome,
-  IsOverfull,
-  IsReading,
-  HasUnshown,
-  DetailNumbers
-};
 
 // Whether its volume is read from a file with levels. Others are asked nothing.
 bool hasLevels(pqDataRepresentation* display)
@@ -56,7 +54,7 @@ bool hasLevels(pqDataRepresentation* display)
 void showInStatusBar(const std::vector<double>& detail)
 {
   auto window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
-  if (!window || detail.size() != DetailNumbers || detail[Level] < 0)
+  if (!window || detail[Level] < 0)
   {
     return;
   }
@@ -68,14 +66,6 @@ void showInStatusBar(const std::vector<double>& detail)
       : detail[IsOverfull] > 0 ? drawn + "; memory is full, the rest is coarser"
                                : drawn,
     shownMs);
-}
-
-std::vector<double> numbersOf(pqDataRepresentation* display)
-{
-  const vtkSmartPointer<vtkSMProxy> report =
-    makeReport(display->getProxy(), "DeformedVolumeReport");
-  pointAt(report, "Representation", display->getProxy());
-  return answerOf(report, "Detail");
 }
 
 enum class Detail // in the order of haste
@@ -92,8 +82,8 @@ Detail detailOf(pqDataRepresentation* display)
   {
     return Detail::Reading;
   }
-  const std::vector<double> numbers = numbersOf(display);
-  if (numbers.size() != DetailNumbers || numbers[ToCome] <= 0)
+  const std::vector<double> numbers = detailNumbersOf(display);
+  if (numbers[ToCome] <= 0)
   {
     return Detail::Complete;
   }
@@ -167,7 +157,7 @@ void FinerDetail::drawOn()
     if (hastiest.detail == Detail::Ready || (hastiest.detail == Detail::Read && isLate))
     {
       view->forceRender();
-      showInStatusBar(numbersOf(hastiest.display));
+      showInStatusBar(detailNumbersOf(hastiest.display));
       since.start();
     }
     coming[view] = since;

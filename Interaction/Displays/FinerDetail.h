@@ -10,11 +10,30 @@
 #include <QTimer>
 
 #include <map>
+#include <vector>
 
+class pqDataRepresentation;
 class pqView;
 
 namespace brainshift
 {
+/// The numbers of the report's Detail, in its order: vtkDeformedVolumeReport.h explains them.
+enum DetailNumber : std::size_t
+{
+  Level,
+  Drawn,
+  ToCome,
+  IsOverfull,
+  IsReading,
+  HasUnshown,
+  NeedsPyramid,
+  DetailNumbers
+};
+
+/// Asks for these numbers of a display that is drawn as Deformed Volume or Deformed Slices. Zeros
+/// if there is no answer.
+std::vector<double> detailNumbersOf(pqDataRepresentation* display);
+
 class FinerDetail : public QObject
 {
   Q_OBJECT

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Workarounds/StopReading.h"
 
+#include "Formats/Volumes/WriterAtWork.h"
 #include "Formats/Volumes/vtkVolumeFileReader.h"
 
 #include <pqApplicationCore.h>
@@ -64,7 +65,7 @@ StopReading::StopReading(QObject* parent)
 
 void StopReading::handlePress()
 {
-  if (this->IsHandling || readersAtWork().empty())
+  if (this->IsHandling || !(WriterAtWork::find() || !readersAtWork().empty()))
   {
     return;
   }
@@ -81,13 +82,18 @@ void StopReading::handlePress()
 
 void StopReading::stop() const
 {
+  if (vtkAlgorithm* writer = WriterAtWork::find())
+  {
+    writer->SetAbortExecuteAndUpdateTime();
+    return; // its source reads a piece to its end, for those who show it
+  }
   for (vtkVolumeFileReader* reader : readersAtWork())
   {
     reader->SetAbortExecuteAndUpdateTime();
   }
 }
 
-// Nothing may draw or read while a reader is at work: timers fire again later.
+// Nothing may draw or read while a reader or a writer is at work: timers fire again later.
 bool StopReading::eventFilter(QObject*, QEvent* event)
 {
   switch (event->type())

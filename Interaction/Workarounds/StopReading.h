@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The cross beside the progress bar, while one of our readers reads on this machine: it stops the
-/// reader. ParaView has this itself from 6.1 on, and before that never enables the cross.
+/// The cross beside the progress bar, while one of our readers reads on this machine, or a large
+/// volume is written: it stops that. ParaView has this itself from 6.1 on, and before that never
+/// enables the cross.
 #ifndef BrainShift_StopReading_h
 #define BrainShift_StopReading_h
 

@@ -3,6 +3,7 @@
 
 #include "Filters/Fit/Fit.h"
 #include "Interaction/Commands/Application.h"
+#include "Interaction/Displays/DrawAllVoxels.h"
 #include "Interaction/Workarounds/QuietMessages.h"
 #include "Panel/Tools/ToolPanel.h"
 
@@ -198,6 +199,9 @@ StatusLine::StatusLine(QWidget* parent, QuietMessages* messages)
   , Line(new QLabel(this))
   , Sign(new QToolButton(this))
   , Warning(new QLabel(this))
+  , Coarser(new QLabel(tr("The volume is drawn coarser."), this))
+  , DrawAll(new QToolButton(this))
+  , Offer(new DrawAllVoxels(this))
 {
   const ToolSettings* settings = ToolSettings::instance();
   this->Switch->setObjectName("BrainShiftSwitchVolume");
@@ -222,6 +226,16 @@ StatusLine::StatusLine(QWidget* parent, QuietMessages* messages)
   this->Warning->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   row->addWidget(this->Sign);
   row->addWidget(this->Warning, 2); // it is longer than a hint
+  this->DrawAll->setObjectName("BrainShiftDrawAll");
+  this->DrawAll->setText(tr("Draw All Voxels..."));
+  this->DrawAll->setToolTip(
+    tr("The volume is too large and is drawn coarser: save it as an OME-Zarr image, of which all "
+       "voxels are drawn where the view needs them."));
+  row->addWidget(this->Coarser);
+  row->addWidget(this->DrawAll);
+  this->connect(this->DrawAll, &QToolButton::clicked, this->Offer, &DrawAllVoxels::begin);
+  this->connect(this->Offer, &DrawAllVoxels::changed, this, &StatusLine::refresh);
+  this->connect(this->Offer, &DrawAllVoxels::failed, this, &StatusLine::warn);
   this->Warned.setSingleShot(true);
   this->connect(&this->Warned, &QTimer::timeout, this, [this] { this->warn(QString()); });
   this->connect(messages, &QuietMessages::said, this, &StatusLine::warn);
@@ -256,5 +270,7 @@ void StatusLine::refresh()
   this->Line->setToolTip(this->Line->text());
   this->Switch->setText(tr("Work on %1").arg(settings.shownInstead()));
   this->Switch->setVisible(inHand && !settings.shownInstead().isEmpty());
+  this->Coarser->setVisible(this->Offer->isOffered());
+  this->DrawAll->setVisible(this->Offer->isOffered());
 }
 }

@@ -16,6 +16,7 @@ class QToolButton;
 
 namespace brainshift
 {
+class DrawAllVoxels;
 class QuietMessages;
 
 // Shows the tissue under the cursor in the status bar, in a view of Deformed Volume or Deformed
@@ -53,7 +54,8 @@ private:
 
 /// Shows the mouse gestures of the view under the cursor in the status bar of the window. If the
 /// view shows another volume than the tool works on, a button takes the tool to it. A warning
-/// stands beside them for a while, or until its sign is pressed, which opens Output Messages.
+/// stands beside them for a while, or until its sign is pressed, which opens Output Messages. A
+/// button draws all voxels of a volume that is drawn coarser.
 class StatusLine : public QWidget
 {
   Q_OBJECT
@@ -70,6 +72,9 @@ private:
   QLabel* Line;
   QToolButton* Sign;
   QLabel* Warning;
+  QLabel* Coarser;
+  QToolButton* DrawAll;
+  DrawAllVoxels* Offer;
   QTimer Warned; ///< Takes the warning away.
 };
 }

@@ -28,7 +28,7 @@ from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .openscene import OpenedScene, open_scene
 from .points import map_points, read_points
-from .pyramids import pyramid
+from .pyramids import draw_from_pyramid, pyramid
 from .registering import (
     Alignment, Refinement, RegistrationFailed, align, refine, similarities)
 from .reporting import report
@@ -44,11 +44,11 @@ from .windows import percentile_window
 __all__ = [
     "Alignment", "Case", "Done", "ElectrodeGrid", "Electrodes", "Fit", "MOVE", "MapDirection",
     "NUMBERS_PER_STROKE", "OpenedScene", "Refinement", "RegistrationFailed", "Resection",
-    "SOFT", "STAMP", "Step", "TargetErrors", "Transform", "align", "animate", "apply_transform",
-    "batch", "counters", "deformed_from_rest", "dicom_patient", "direction", "draw_detail",
-    "electrodes", "figure", "fit", "four_views", "gpu", "load_field", "load_lattice", "look",
-    "looks", "map_points", "move", "open_sample", "open_scene", "percentile_window", "pick",
-    "pyramid", "read_points", "read_transform", "refine", "report", "resect",
-    "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_scene",
-    "save_segmentation", "save_transform", "save_volume", "show_comparison", "similarities",
-    "slice_axes", "soft", "stamp", "tre"]
+    "SOFT", "STAMP", "Step", "TargetErrors", "Transform", "align", "animate",
+    "apply_transform", "batch", "counters", "deformed_from_rest", "dicom_patient", "direction",
+    "draw_detail", "draw_from_pyramid", "electrodes", "figure", "fit", "four_views", "gpu",
+    "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
+    "open_scene", "percentile_window", "pick", "pyramid", "read_points", "read_transform",
+    "refine", "report", "resect", "rest_from_deformed", "save_dicom", "save_field",
+    "save_lattice", "save_scene", "save_segmentation", "save_transform", "save_volume",
+    "show_comparison", "similarities", "slice_axes", "soft", "stamp", "tre"]

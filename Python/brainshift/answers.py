@@ -119,6 +119,8 @@ def gpu(representation):
     - `gpuScalarBytes`: bytes of the voxels
     - `gpuOtherBytes`: bytes of all other textures and buffers, including those of picture size
     - `gpuVoxelsPerTexel`: voxels that one value stands for; 1: there is memory for each of them
+    - `gpuNeedsPyramid`: 1 if it is drawn coarser, and `draw_from_pyramid` would bring all its
+      voxels where the view needs them; else 0
     - `gpuLevel`: the finer level of an OME-Zarr store of which bricks are drawn; -1: none
     - `gpuBricks`: bricks of it that are drawn where rays or slices meet them, in all views
     - `gpuBricksWanted`: bricks that are still to come, at least 1 while there may be some; 0: each

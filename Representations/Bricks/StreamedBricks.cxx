@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Bricks/StreamedBricks.h"
 
+#include "Common/WorldAxes.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/VolumePass.h"
 #include "Representations/Scene/Frustum.h"
 
 #include "vtkCamera.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTextureObject.h"
@@ -153,15 +156,30 @@ void BrickView::leaveRoomFor(std::int64_t bytes)
   }
 }
 
+namespace
+{
 // Other choices are drawn from the volume's own level alone. Nearest does not stream: between two
 // voxels, a brick may round to another one than the volume does.
-bool StreamedBricks::accepts(const BrickView& view, const TissueRequest& tissue)
+bool accepts(const TissueRequest& tissue, bool ofSlices)
 {
   const DrawnComponents drawn = drawnComponents(tissue.property, tissue.values.scalars);
-  const bool isBlended = view.ofSlices || tissue.blend == Blend::Composite;
+  const bool isBlended = ofSlices || tissue.blend == Blend::Composite;
   return isBlended && !tissue.nearest && tissue.opacity == Opacity::Scalar && !tissue.compared &&
     !tissue.labels && !tissue.segment.segmentation.labels && drawn.coloring == Coloring::Mapped &&
     drawn.scalar >= 0 && !CategoryScalars::areWanted(tissue.property);
+}
+}
+
+// A file with levels has numbers on points, in RAS.
+FinerBy finerVoxelsBy(vtkImageData* image, const TissueRequest& tissue, bool ofSlices)
+{
+  const DrawnValues& values = tissue.values;
+  if (!accepts(tissue, ofSlices) || values.layout.voxels != values.grid.dimensions ||
+    worldAxesOf(image) == WorldAxes::LPS)
+  {
+    return FinerBy::Nothing;
+  }
+  return image->GetFieldData()->GetArray(LevelArray) ? FinerBy::Level : FinerBy::Pyramid;
 }
 
 // Whether the room for bricks suits the limit. What else is drawn takes more or less of it from
@@ -186,7 +204,7 @@ bool StreamedBricks::hasRoomFor(const BrickView& view) const
 void StreamedBricks::chooseLevel(const BrickView& view, const TissueRequest& tissue)
 {
   const std::vector<Grid> grids = this->Loader ? this->Loader->grids() : std::vector<Grid>();
-  this->Accepted = this->Loader && accepts(view, tissue);
+  this->Accepted = this->Loader && accepts(tissue, view.ofSlices);
   this->KnewGrids = !grids.empty();
   std::optional<FineGrid> level;
   if (this->Accepted)

@@ -51,6 +51,9 @@ bool isLeftEye(const DrawnVolume& drawn);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::optional<FineGrid> levelFor(const DrawnValues& values,
   const std::vector<Grid>& finer, const BrickView& view, double pixelsWide = 1.0);
 
+/// What would bring bricks to a volume that is drawn coarser. `ofSlices`: see BrickView.
+FinerBy finerVoxelsBy(vtkImageData* image, const TissueRequest& tissue, bool ofSlices);
+
 /// Begins the counters of bricks anew, which StreamedBricks::count adds to.
 void resetDetail(Counters& counters);
 
@@ -119,7 +122,6 @@ public:
   void release(vtkWindow* window);
 
 private:
-  static bool accepts(const BrickView& view, const TissueRequest& tissue);
   bool hasRoomFor(const BrickView& view) const;
   void chooseLevel(const BrickView& view, const TissueRequest& tissue);
   bool allocate(GpuTask& gpu);

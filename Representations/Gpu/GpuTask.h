@@ -39,6 +39,7 @@ struct Counters
   std::int64_t gpuScalarBytes = 0;       ///< Now: textures of the volume's scalars.
   std::int64_t gpuOtherBytes = 0;        ///< Now: all other textures and buffers.
   std::int64_t gpuVoxelsPerTexel = 1;    ///< Now: more than 1 where memory is short.
+  std::int64_t gpuNeedsPyramid = 0;      ///< Now: 1 if a file with levels would bring all voxels.
   std::int64_t gpuLevel = -1;            ///< Now: a finer level that bricks are drawn of; -1: none.
   std::int64_t gpuBricks = 0;            ///< Now: bricks of it that are there.
   std::int64_t gpuBricksWanted = 0;      ///< Now: 0 where the view has all that it gets.

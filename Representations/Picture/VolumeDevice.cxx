@@ -3,6 +3,7 @@
 
 #include "Representations/Picture/PictureCapture.h"
 
+#include "vtkImageData.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -71,6 +72,11 @@ bool VolumeDevice::draw(
       this->drawTissue(gpu, drawn, deformation, possible);
   };
   const MemoryNeed need = needOf(request, deformation);
+  if (request.part.empty()) // ranks stream nothing
+  {
+    auto image = vtkImageData::SafeDownCast(request.mapper->GetDataSetInput());
+    request.tissue.finerBy = finerVoxelsBy(image, request.tissue, /*ofSlices*/ false);
+  }
   this->Bricks.rest();
   const bool isDrawn = this->Level.draw(gpu, request.tissue, need, request.memoryLimitMiB, [&] {
     const bool done = draw();

@@ -20,10 +20,27 @@ long long texelsOf(const ValueLayout& layout)
   return static_cast<long long>(side.x) * side.y * side.z;
 }
 
-std::string remarkOn(const std::string& problem, const glm::ivec3& joined)
+// A sentence on what the user can do, or nothing.
+std::string wayOut(FinerBy finerBy)
+{
+  switch (finerBy)
+  {
+    case FinerBy::Level:
+      return ". With a lower Memory Limit of its OME-Zarr Reader, all voxels are drawn where the "
+             "view needs them";
+    case FinerBy::Pyramid:
+      return ". Saved as an OME-Zarr image, all its voxels are drawn where the view needs them: "
+             "press Draw All Voxels in the status bar, or call brainshift.draw_from_pyramid";
+    case FinerBy::Nothing:
+      break;
+  }
+  return {};
+}
+
+std::string remarkOn(const std::string& problem, const glm::ivec3& joined, FinerBy finerBy)
 {
   return problem + ". So it is drawn coarser: one value for " + std::to_string(joined.x) + " x " +
-    std::to_string(joined.y) + " x " + std::to_string(joined.z) + " voxels";
+    std::to_string(joined.y) + " x " + std::to_string(joined.z) + " voxels" + wayOut(finerBy);
 }
 }
 
@@ -67,9 +84,11 @@ bool FinestLevel::draw(GpuTask& gpu, TissueRequest& tissue, const MemoryNeed& ne
       this->Level = level;
       this->Found.givenBack = ScalarTexture::givenBack(); // on the way, by this volume
       gpu.counters.gpuVoxelsPerTexel = static_cast<std::int64_t>(joined.x) * joined.y * joined.z;
-      if (!layout.isWhole())
+      const bool isCoarser = !layout.isWhole();
+      gpu.counters.gpuNeedsPyramid = isCoarser && tissue.finerBy == FinerBy::Pyramid ? 1 : 0;
+      if (isCoarser)
       {
-        gpu.remarks.push_back(remarkOn(this->Problem, joined));
+        gpu.remarks.push_back(remarkOn(this->Problem, joined, tissue.finerBy));
       }
       return true;
     }
@@ -81,6 +100,7 @@ bool FinestLevel::draw(GpuTask& gpu, TissueRequest& tissue, const MemoryNeed& ne
       this->Level = 0;
       this->Problem.clear();
       this->Found.givenBack = ScalarTexture::givenBack();
+      gpu.counters.gpuNeedsPyramid = 0;
       return false;
     }
     gpu.remarks.resize(remarks); // of what was not drawn

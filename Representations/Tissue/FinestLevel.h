@@ -28,9 +28,9 @@ class FinestLevel
 {
 public:
   /// Calls `attempt`, which draws `tissue`, with coarser and coarser texels, until it succeeds or
-  /// fails for another reason than memory. A remark says what is drawn in place of all voxels. If
-  /// nothing fits, the problem is that of level 0. `need`: of level 0. `limitMiB`: see
-  /// memoryProblem.
+  /// fails for another reason than memory. A remark says what is drawn in place of all voxels, and
+  /// what would bring them. If nothing fits, the problem is that of level 0. `need`: of level 0.
+  /// `limitMiB`: see memoryProblem.
   bool draw(GpuTask& gpu, TissueRequest& tissue, const MemoryNeed& need, double limitMiB,
     const std::function<bool()>& attempt);
 

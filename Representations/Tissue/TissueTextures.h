@@ -30,6 +30,14 @@ enum class GradientSource
   OnTheFly = 2,
 };
 
+/// What would bring bricks of finer voxels to a volume that is drawn coarser for want of memory.
+enum class FinerBy
+{
+  Nothing, ///< What is drawn takes no bricks.
+  Level,   ///< Its file has levels: a smaller one leaves room for bricks of the others.
+  Pyramid, ///< It needs a file with levels.
+};
+
 /// A ray through all of a volume takes a limited number of samples, so that a picture ends.
 constexpr double MostSamplesOfRay = 8192.0;
 
@@ -50,7 +58,8 @@ struct TissueRequest
   Opacity opacity = Opacity::Scalar;
   glm::dvec2 range{ 0.0, 1.0 }; ///< Values that steepness and 2D transfer functions count by.
   StoredScalar mapped;          ///< Value for colours and opacities: scalar * scale + shift.
-  bool compared = false;        ///< Beside a reference, whose values are no categories.
+  FinerBy finerBy = FinerBy::Nothing;
+  bool compared = false; ///< Beside a reference, whose values are no categories.
 };
 
 /// The textures of one volume in one window.

@@ -61,7 +61,7 @@ STANDS_ON = {
     "Interaction/Landmarks": ["Interaction/Edits"],
     "Interaction/Cases": ["Interaction/Edits"],
     "Interaction/Tools": ["Interaction/Edits"],
-    "Interaction/Displays": ["Interaction/Views"],
+    "Interaction/Displays": ["Interaction/Cases"],
     "Interaction/Pointer": ["Interaction/Edits", "Tracking"],
     "Interaction": ["Interaction/Cases", "Interaction/Displays", "Interaction/Landmarks",
                     "Interaction/Pointer", "Interaction/Tools"],

@@ -135,6 +135,7 @@ TEST(Defaults, OfNRRDReaderLiveInTheClass)
 TEST(Defaults, OfOMEZarrReaderLiveInTheClass)
 {
   vtkNew<vtkVolumeFileReader> reader;
+  EXPECT_STREQ(reader->GetArrayName(), "");
   const Defaults expected{ { "Channel", { double(reader->GetChannel()) } },
     { "Format", {} }, // the text "OMEZarr"
     { "Level", { double(reader->GetLevel()) } }, { "MemoryLimit", { reader->GetMemoryLimit() } } };

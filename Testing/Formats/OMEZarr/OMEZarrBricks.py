@@ -2,12 +2,16 @@
 # Proves that a store that is read coarsely is drawn as finely as it is stored where rays meet it:
 # as the finest level is, read and drawn directly, also bent, clipped to a small memory, with a
 # chunk that is damaged, while it is bent again and in two views. Skipping changes no bit of it.
+# A volume that is too large is drawn so from an image of it, and keeps its strokes.
 import os
+import re
 import shutil
 
+import nibabel
 import numpy
-from brainshift_testing import (assert_says, load_plugin, messages, picture, run_tests,
-                                show_volume, use_headlight, view_along)
+from brainshift_testing import (assert_says, load_plugin, messages, output, picture, run_tests,
+                                scratch, show_volume, use_headlight, view_along, volume)
+from brainshift_testing import voxels as values_of
 from streamed_store import (MIDDLE, bent, blurred, coarse, compare, differences, reader, save,
                             store, voxels)
 from zarr_files import fresh, write_array
@@ -16,12 +20,14 @@ load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import simple  # noqa: E402
 from stock_testing import prop_of  # noqa: E402
+from vtkmodules.vtkCommonCore import vtkStringArray  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkPlane  # noqa: E402
 
 COLORS = [0, 0.1, 0.1, 0.5, 500, 1, 0.6, 0.2, 1000, 1, 1, 0.8]
 TRANSLUCENT = [0, 0, 0.5, 0, 300, 0, 0.5, 0, 700, 0.1, 0.5, 0, 1000, 0.4, 0.5, 0]
 OPAQUE = [0, 0, 0.5, 0, 440, 0, 0.5, 0, 460, 1, 0.5, 0, 1000, 1, 0.5, 0]
 STEP = 0.4  # mm
+COMPOSITE, MAXIMUM = 0, 1  # BlendMode
 
 
 class Shown:
@@ -31,7 +37,7 @@ class Shown:
         self.view = view_along((-0.2, 0.3, -1), MIDDLE, away, size=size)
         use_headlight(self.view)
         self.display = show_volume(source, self.view, "Deformed Volume", COLORS, opacities,
-                                   shade=shade)
+                                   named.pop("array", "Intensity"), shade)
         self.display.VolumeNormalTexture = "On the fly"
         self.display.SampleDistance = STEP
         self.display.AmbientOcclusion = 0.0
@@ -394,6 +400,158 @@ def test_what_a_filter_made_is_drawn_as_it_is():
     shown = Shown(smooth)
     _, state = shown.detail()
     assert state["gpuLevel"] == -1 and state["gpuBricksWanted"] == 0, state
+    shown.close()
+
+
+STROKE = list(brainshift.soft((30.0, 56.0, 40.0), (0, 0, 3), 14.0))
+
+
+def limit_of(shown, lacking):
+    """A limit below what a volume needs, MiB."""
+    shown.display.MemoryLimit = 0.01
+    with messages() as said:
+        picture(shown.view)
+    total, corrections = (float(re.search(words, said.text).group(1)) for words in (
+        r"needs ([\d.]+) MiB", r"corrections of it ([\d.]+)"))
+    return total - corrections - lacking
+
+
+def too_large():
+    """A bent volume of another array than that of readers, which does not fit into the memory."""
+    source = volume(voxels().repeat(2, 0).repeat(2, 1).repeat(2, 2), (-0.25,) * 3, (0.5,) * 3)
+    image = source.GetClientSideObject().GetOutputDataObject(0)
+    image.GetPointData().GetScalars().SetName("RTData")
+    filter = simple.FreeFormDeformation(Input=source, Strokes=STROKE)
+    shown = Shown(filter, OPAQUE, array="RTData", size=120)
+    shown.fine = picture(shown.view)
+    shown.display.MemoryLimit = limit_of(shown, 1.0)
+    with messages() as said:
+        shown.coarse = picture(shown.view)
+    shown.said = said.text
+    return source, filter, shown
+
+
+def new_store(name="all-voxels.ome.zarr"):
+    path = fresh(name)
+    os.rmdir(path)
+    return path
+
+
+def test_a_volume_that_is_too_large_is_drawn_from_its_image():
+    source, filter, shown = too_large()
+    assert_says(shown.said, "drawn coarser", "OME-Zarr image", "Draw All Voxels",
+                "brainshift.draw_from_pyramid")
+    other = simple.FreeFormDeformation(Input=source)
+    compared = simple.CompareVolumes(Input=filter, Reference=source)
+    simple.SetActiveSource(compared)
+    told = []
+    reader = brainshift.draw_from_pyramid(filter, new_store(), progress=told.append)
+    assert told == sorted(told) and told[-1] == 1.0, told
+    assert filter.Input == reader and list(filter.Strokes) == STROKE
+    assert other.Input == source and compared.Reference == source
+    assert simple.GetActiveSource() == compared
+    assert source in simple.GetSources().values()
+    with messages() as said:
+        image, state = shown.detail()
+    assert "coarser:" not in said.text, said.text
+    assert state["gpuVoxelsPerTexel"] == 1 and state["gpuNeedsPyramid"] == 0, state
+    assert state["gpuLevel"] == 0 and state["gpuBricks"] > 8, state
+    assert state["gpuBricksLackRoom"] == 0, state
+    assert shown.display.ColorArrayName[1] == "RTData"
+    off = [differences(one, shown.fine)[1] for one in (image, shown.coarse)]
+    print(f"  {off[0]} pixels differ, drawn coarser {off[1]}")
+    assert off[0] < 0.1 * off[1], off
+    reader.Level = 0
+    assert (values_of(reader, "RTData") == values_of(source, "RTData")).all()
+    for place in ("GetOrigin", "GetSpacing"):
+        assert getattr(output(reader), place)() == getattr(output(source), place)(), place
+    shown.close()
+
+
+def test_what_is_not_written_changes_nothing():
+    source, filter, shown = too_large()
+    sources = set(simple.GetSources())
+    full = fresh("full.ome.zarr")
+    with open(os.path.join(full, "file"), "w", encoding="utf-8"):
+        pass
+    for error, words, arguments in (
+            (OSError, "stopped", {"out": new_store(), "progress": lambda _: False}),
+            (OSError, "full.ome.zarr", {"out": full}),
+            (ValueError, "out is missing", {}),
+            (ValueError, "must end in .zarr", {"out": "somewhere"})):
+        with messages():
+            try:
+                brainshift.draw_from_pyramid(filter, **arguments)
+                raise AssertionError(words)
+            except error as problem:
+                assert words in str(problem), problem
+        assert filter.Input == source and set(simple.GetSources()) == sources, words
+        assert numpy.array_equal(picture(shown.view), shown.coarse), words
+    shown.close()
+
+
+def test_volumes_that_no_image_can_replace_are_refused():
+    bent = simple.FreeFormDeformation(Input=volume(voxels()[::8, ::8, ::8].copy()))
+    left = volume(voxels()[::8, ::8, ::8].copy())
+    sides = vtkStringArray()
+    sides.SetName("WorldAxes")
+    sides.InsertNextValue("LPS")
+    left.GetClientSideObject().GetOutputDataObject(0).GetFieldData().AddArray(sides)
+    left.MarkModified(left.SMProxy)
+    file = scratch("times.nii")
+    nibabel.save(nibabel.Nifti1Image(numpy.zeros((7, 6, 5, 3), "int16"), numpy.eye(4)), file)
+    times = simple.NIFTIVolumeReader(FileName=file)
+    for source, words in ((simple.FreeFormDeformation(Input=bent), "bent already"),
+                          (simple.FreeFormDeformation(Input=times), "3 times"),
+                          (simple.FreeFormDeformation(Input=coarse(store())), "already"),
+                          (left, "LPS"), (simple.Sphere(), "no volume")):
+        try:
+            brainshift.draw_from_pyramid(source, new_store())
+            raise AssertionError(words)
+        except ValueError as problem:
+            assert words in str(problem), problem
+
+
+def test_no_image_is_offered_where_it_would_bring_no_voxels():
+    _, _, shown = too_large()
+    assert brainshift.gpu(shown.display)["gpuNeedsPyramid"] == 1
+    for blend, needs in ((MAXIMUM, 0), (COMPOSITE, 1)):
+        shown.display.BlendMode = blend
+        picture(shown.view)
+        held = brainshift.gpu(shown.display)
+        assert held["gpuVoxelsPerTexel"] > 1 and held["gpuNeedsPyramid"] == needs, (blend, held)
+    shown.display.SetRepresentationType("Deformed Slices")
+    with messages() as said:
+        picture(shown.view)
+    assert_says(said.text, "drawn coarser", "Draw All Voxels")
+    assert brainshift.gpu(shown.display)["gpuNeedsPyramid"] == 1
+    shown.close()
+    path = brainshift.pyramid(volume(voxels()), new_store())
+    shown = Shown(simple.FreeFormDeformation(Input=reader(path), Strokes=STROKE), OPAQUE, size=120)
+    shown.display.MemoryLimit = limit_of(shown, 0.5)
+    with messages() as said:
+        picture(shown.view)
+    assert_says(said.text, "drawn coarser", "a lower Memory Limit of its OME-Zarr Reader")
+    assert "draw_from_pyramid" not in said.text, said.text
+    shown.close()
+
+
+def test_a_volume_that_nothing_bends():
+    """Its display shows the reader."""
+    source, filter, bent = too_large()
+    bent.close()
+    shown = Shown(source, OPAQUE, array="RTData", size=120)
+    fine = picture(shown.view)
+    shown.display.MemoryLimit = limit_of(shown, 1.0)
+    with messages():
+        picture(shown.view)
+        reader = brainshift.draw_from_pyramid(source, new_store())
+    assert filter.Input == source and shown.display.Input == reader
+    image, state = shown.detail()
+    assert state["gpuVoxelsPerTexel"] == 1 and state["gpuBricks"] > 8, state
+    off = differences(image, fine)[1]
+    print(f"  {off} pixels differ")
+    assert off < 100, off
     shown.close()
 
 

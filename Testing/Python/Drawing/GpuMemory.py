@@ -130,6 +130,8 @@ def test_a_large_volume_is_drawn_coarser_and_in_its_place():
         with messages() as said:
             coarse = picture(view)
         assert_says(said.text, "drawn coarser: one value for 2 x 2 x 1 voxels")
+        # An OME-Zarr image has its numbers on points.
+        assert ("brainshift.draw_from_pyramid" in said.text) is not cells, said.text
         assert "software" not in said.text and "less exactly" not in said.text, said.text
         assert brainshift.gpu(display)["gpuVoxelsPerTexel"] == 4
         view, _ = bent_and_shown(joined(values.astype(kind), cells), cells, bends)

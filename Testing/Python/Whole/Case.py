@@ -587,6 +587,20 @@ def test_two_cases_may_share_sources():
     refused(ValueError, ["twice"], lambda: first.bent)
 
 
+def test_a_case_takes_the_image_that_is_drawn_instead_of_its_volume():
+    """Or its next order would set the volume again."""
+    clear()
+    source = volume(ball())
+    case = brainshift.Case(volume=source)
+    store = scratch("ball.ome.zarr")
+    shutil.rmtree(store, ignore_errors=True)
+    with messages():  # unknown sides
+        reader = brainshift.draw_from_pyramid(case.bent, store)
+    case.reference = source
+    assert case.volume == reader and case.bent.Input == reader
+    assert case.reference == source and not casesources.marks(source)[1:]
+
+
 def test_an_export_keeps_the_axes_of_the_volume():
     clear()
     case = brainshift.Case(volume=volume(ball(9, 3.0)))
