@@ -158,8 +158,20 @@ void requireMagic(const std::vector<char>& bytes)
   {
     return;
   }
-  throw Problem(begin == QuadrangleMagic || begin == ValueMagic
-      ? "is no FreeSurfer surface of triangles, but one of quadrangles or a map of values"
+  if (begin == ValueMagic && bytes.size() > 3 && bytes[3] == '\xff')
+  {
+    throw Problem("is a flat patch of FreeSurfer, and no surface of triangles; open the surface");
+  }
+  if (begin == ValueMagic)
+  {
+    throw Problem(
+      "is a map of values of FreeSurfer, and no surface; open the surface, and name this "
+      "file as one of its Value File Names");
+  }
+  throw Problem(begin == QuadrangleMagic
+      ? "is a FreeSurfer surface of quadrangles; BrainShift reads triangles"
+      : begin.substr(0, 2) == "\x1f\x8b"
+      ? "is packed by gzip; unpack it"
       : "does not begin like a FreeSurfer surface (FF FF FE) and is no GIFTI file");
 }
 
@@ -340,5 +352,5 @@ void addFreeSurferValues(const std::vector<char>& bytes, const std::string& name
 
 extern const SurfaceFormat SurfacesOfFreeSurfer{ isFreeSurferSurface, readFreeSurferSurface,
   addFreeSurferValues, beginsLikeFreeSurferValues,
-  "map of values of FreeSurfer, such as lh.thickness," };
+  "map of values of FreeSurfer, such as lh.thickness" };
 }

@@ -184,6 +184,7 @@ private:
     label.value = static_cast<int>(key[0]);
     label.name = trimmed(this->Text);
     const char* const names[3] = { "Red", "Green", "Blue" };
+    this->File.colorless += this->Attributes.count(names[0]) == 0 ? 1 : 0;
     for (int i = 0; i < 3; ++i)
     {
       const std::vector<double> share = numbersIn(this->Attributes[names[i]]);
@@ -250,7 +251,7 @@ void hearEntity(void* user, Ignored...)
 }
 
 // What the first element announces.
-void requireRoot(const GIFTIFile& file)
+void requireRoot(GIFTIFile& file)
 {
   const auto said = [&](const char* name) {
     const auto found = file.attributes.find(name);
@@ -264,8 +265,14 @@ void requireRoot(const GIFTIFile& file)
   const std::vector<double> count = numbersIn(said("NumberOfDataArrays"));
   if (!count.empty() && count[0] != static_cast<double>(file.arrays.size()))
   {
-    throw Problem("has " + std::to_string(file.arrays.size()) +
-      " arrays where NumberOfDataArrays announces " + shownWords(said("NumberOfDataArrays")));
+    const std::size_t arrays = file.arrays.size();
+    file.notes.push_back(joined("has ", arrays, arrays == 1 ? " array" : " arrays",
+      " where NumberOfDataArrays announces ", shownWords(said("NumberOfDataArrays"))));
+  }
+  if (file.colorless > 1)
+  {
+    file.notes.push_back(
+      joined("has ", file.colorless, " labels without a colour, which are white"));
   }
 }
 

@@ -45,6 +45,8 @@ struct GIFTIFile
   std::map<std::string, std::string> meta;       ///< names and values of its own MetaData
   std::vector<GIFTIArray> arrays;
   std::vector<Label> labels;
+  std::size_t colorless = 0;      ///< labels that say no colour
+  std::vector<std::string> notes; ///< what may be wrong: ends of sentences
 };
 
 /** Whether the first bytes of a file, or a file, begin like one of GIFTI. */

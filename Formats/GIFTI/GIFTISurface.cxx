@@ -405,6 +405,7 @@ void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface
   }
   requireShape(*points, "points", false);
   requireShape(*triangles, "triangles", true);
+  surface.notes = file.notes;
   findPlace(file, *points, surface);
   takePoints(*points, surface);
   takeTriangles(*triangles, surface);
@@ -416,6 +417,7 @@ void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface
 void addGIFTINumbers(const std::vector<char>& text, const std::string&, Surface& surface)
 {
   GIFTIFile file = readGIFTIFile(text);
+  surface.notes.insert(surface.notes.end(), file.notes.begin(), file.notes.end());
   const std::size_t before = surface.numbers.size() + surface.notes.size();
   takeNumbers(file, surface);
   throwIfAny(surface.numbers.size() + surface.notes.size() > before

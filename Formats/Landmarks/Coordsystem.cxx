@@ -34,15 +34,14 @@ std::set<std::string> entitiesOf(const std::string& name)
   return entities;
 }
 
-// The file beside a table that is about it: of those whose entities are all the table's, the one
+// The file in a folder that is about a table: of those whose entities are all the table's, the one
 // with the most.
-std::string fileBeside(const fs::path& table)
+std::string fileIn(const fs::path& folder, const fs::path& table)
 {
   const std::set<std::string> own = entitiesOf(table.filename().string());
   std::string best;
   std::size_t most = 0;
   std::error_code error;
-  const fs::path folder = table.has_parent_path() ? table.parent_path() : fs::path(".");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
   {
     const std::string name = entry.path().filename().string();
@@ -58,11 +57,46 @@ std::string fileBeside(const fs::path& table)
   return best;
 }
 
+// The file that is about a table, beside it or, in a data set of BIDS, in a folder above it.
+std::string fileAbout(const fs::path& table)
+{
+  constexpr int MostAbove = 4; // the data set, subject, session and kind of data
+  std::error_code error;
+  fs::path folder = fs::absolute(table, error).parent_path();
+  std::string found = fileIn(folder, table);
+  fs::path root = folder;
+  for (int i = 0; i < MostAbove && !fs::exists(root / "dataset_description.json", error); ++i)
+  {
+    root = root.parent_path();
+  }
+  const bool isOfBIDS = fs::exists(root / "dataset_description.json", error);
+  while (found.empty() && isOfBIDS && folder != root)
+  {
+    folder = folder.parent_path();
+    found = fileIn(folder, table);
+  }
+  return found;
+}
+
+// The name of a file that is about other positions than those of a table. Empty: there is none.
+std::string otherBeside(const fs::path& table)
+{
+  std::error_code error;
+  const fs::path folder = table.has_parent_path() ? table.parent_path() : fs::path(".");
+  std::string first;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+  {
+    const std::string name = entry.path().filename().string();
+    first = endsWith(name, Ending) && (first.empty() || name < first) ? name : first;
+  }
+  return first;
+}
+
 std::string wordIn(const nlohmann::json& object, const std::string& end, bool isOptodes)
 {
   const std::vector<std::string> kinds = isOptodes
     ? std::vector<std::string>{ "NIRS" }
-    : std::vector<std::string>{ "iEEG", "EEG", "MEG" };
+    : std::vector<std::string>{ "iEEG", "EEG", "MEG", "EMG" };
   for (const std::string& kind : kinds)
   {
     const auto found = object.find(kind + end);
@@ -119,10 +153,14 @@ std::optional<ElectrodeFrame> electrodeFrame(const std::string& tableName, Landm
   {
     return std::nullopt;
   }
-  const std::string beside = fileBeside(tableName);
+  const std::string beside = fileAbout(tableName);
   if (beside.empty())
   {
-    list.notes.emplace_back("has no coordsystem.json beside it; its unit counts as mm");
+    const std::string other = otherBeside(tableName);
+    list.notes.push_back(other.empty()
+        ? "has no coordsystem.json beside it; its unit counts as mm"
+        : "has no coordsystem.json of its own: " + shownWords(other) +
+          " is about other positions; its unit counts as mm, which may be wrong");
     return ElectrodeFrame();
   }
   ElectrodeFrame electrodes;

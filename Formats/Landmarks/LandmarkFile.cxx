@@ -110,6 +110,29 @@ void noteSkipped(LandmarkList& list, std::size_t skipped)
   }
 }
 
+namespace
+{
+// Positions of a head in metres are as near to each other as no landmarks in mm are.
+void noteSmall(LandmarkList& list)
+{
+  constexpr std::size_t Few = 4;
+  constexpr double SmallMm = 1.0;
+  glm::dvec3 low(HUGE_VAL);
+  glm::dvec3 high(-HUGE_VAL);
+  for (const Landmark& point : list.points)
+  {
+    low = glm::min(low, point.position);
+    high = glm::max(high, point.position);
+  }
+  const double sizeMm = list.points.size() < Few ? HUGE_VAL : glm::length(high - low);
+  if (sizeMm > 0.0 && sizeMm < SmallMm)
+  {
+    list.notes.push_back(joined("has ", list.points.size(), " points within ", roundedText(sizeMm),
+      " mm; check whether they are in metres"));
+  }
+}
+}
+
 bool isLandmarkFile(const std::string& fileName)
 {
   const LandmarkFormat* format = formatByEnding(landmarkFormats(), fileName);
@@ -129,6 +152,7 @@ LandmarkList readLandmarkFile(const std::string& fileName, int volume, const Tab
     choice.table.mm = beside ? beside->mm : table.mm;
     choice.table.axes = beside && beside->axes ? *beside->axes : table.axes;
     format.read(text, choice, list);
+    noteSmall(list);
   });
   return list;
 }

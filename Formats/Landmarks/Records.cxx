@@ -90,10 +90,16 @@ bool isComment(const std::vector<std::string>& values)
   return trimmed(values[0]).compare(0, 1, "#") == 0;
 }
 
+// Spreadsheets add empty columns at the end.
 CommentEntry commentEntry(const std::vector<std::string>& values, char separator)
 {
   std::string line = trimmed(values[0]);
-  for (std::size_t i = 1; i < values.size(); ++i)
+  std::size_t count = values.size();
+  while (count > 1 && trimmed(values[count - 1]).empty())
+  {
+    --count;
+  }
+  for (std::size_t i = 1; i < count; ++i)
   {
     line += separator + values[i];
   }

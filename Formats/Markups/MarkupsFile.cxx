@@ -107,6 +107,7 @@ private:
   bool HasMarkups = false;
   std::size_t Read = 0;
   std::size_t Skipped = 0;
+  std::size_t UnitWords = 0;
   // Of the list that is being read.
   FileAxes Axes = FileAxes::LPS;
   std::size_t First = 0;
@@ -135,7 +136,7 @@ private:
         this->takeOfMarkup(value);
         break;
       case Place::Units:
-        requireUnit(value);
+        this->takeUnit(value);
         break;
       case Place::Controls:
         ++this->Read;
@@ -151,6 +152,20 @@ private:
         break;
     }
     return true;
+  }
+
+  // Of the three words that a unit may have: its code, the scheme of the code, and its name.
+  void takeUnit(const Value& value)
+  {
+    const std::size_t word = this->UnitWords++;
+    if (word == 0)
+    {
+      requireUnit(value);
+    }
+    else if (word == 1 && !value.isNull && !(value.word && *value.word == "UCUM"))
+    {
+      throw Problem("has coordinateUnits of a scheme other than UCUM");
+    }
   }
 
   static void requireUnit(const Value& value)
@@ -275,6 +290,7 @@ private:
     {
       throwIfAny(isArray ? "" : "has coordinateUnits other than mm");
       this->Places.back() = Place::Units;
+      this->UnitWords = 0;
     }
     else if (this->Key == "coordinateSystem")
     {

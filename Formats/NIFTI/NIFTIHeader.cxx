@@ -54,6 +54,10 @@ struct RawHeader
 
   bool isSingleFile() const { return this->bytes[this->version == 1 ? 345 : 5] == '+'; }
   int dataType() const { return this->number<std::int16_t>(this->version == 1 ? 70 : 12); }
+  std::int64_t intent() const
+  {
+    return this->version == 1 ? this->number<std::int16_t>(68) : this->number<std::int32_t>(504);
+  }
   double voxelOffset() const
   {
     return this->version == 1 ? this->number<float>(108)
@@ -163,6 +167,12 @@ void requireDimensions(const RawHeader& header)
   if (rank < 1 || rank > 7)
   {
     throw Problem(joined("has ", rank, " dimensions; it must have from 1 to 7"));
+  }
+  const std::int64_t intent = header.intent();
+  if (intent >= 3000 && intent < 3100)
+  {
+    throw Problem("is a CIFTI file of values of surfaces and grey matter, and no volume; make a "
+                  "volume or a metric (.func.gii) of it by wb_command -cifti-separate");
   }
   bool oneVoxel = true;
   for (int axis = 1; axis <= rank; ++axis)

@@ -109,13 +109,13 @@ const SurfaceFormat* formatOfValues(const std::vector<char>& bytes)
   return nullptr;
 }
 
-// "is no map of values of FreeSurfer, such as lh.thickness, and no GIFTI file"
+// "is no map of values of FreeSurfer, such as lh.thickness, and no GIFTI file of values"
 std::string noValues()
 {
   std::string kinds;
   for (const SurfaceFormat* format : surfaceFormats())
   {
-    kinds.append(kinds.empty() ? "is no " : " and no ").append(format->values);
+    kinds.append(kinds.empty() ? "is no " : ", and no ").append(format->values);
   }
   return kinds;
 }

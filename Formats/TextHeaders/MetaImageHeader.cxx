@@ -39,7 +39,8 @@ bool isKey(const std::string& name)
     [&](const char* key) { return lowerCase(key) == lowerCase(name); });
 }
 
-// A key that is almost one that counts would count as missing without a word.
+// A key that is almost one that counts would count as missing without a word. Beside the key itself
+// it is another thing, such as the "toffset" that ITK takes along from NIfTI.
 void requireKeys(TextHeader& header)
 {
   constexpr std::size_t SlipOfTheHand = 2; // letters
@@ -60,7 +61,7 @@ void requireKeys(TextHeader& header)
   {
     for (const std::string key : Keys)
     {
-      if (!isKey(name) && key.size() >= Shortest &&
+      if (!isKey(name) && !header.text.has(key) && key.size() >= Shortest &&
         lettersBetween(name, lowerCase(key)) <= SlipOfTheHand)
       {
         throw Problem("has the key '" + shownWords(name) +

@@ -20,6 +20,8 @@ _NAMES_FILE = re.compile(rb"""\b(?:Source|file)\s*=\s*(?:"([^"]*)"|'([^']*)')"""
 #: Tables of BIDS whose unit and axes another file says.
 _TABLES = ("_electrodes.tsv", "_optodes.tsv")
 _ABOUT = "_coordsystem.json"
+#: In the root of a data set of BIDS, and how far a table may lie below it.
+_ROOT_OF_BIDS, _MOST_ABOVE = "dataset_description.json", 4
 
 #: As in the readers: bytes in which a header ends, and most files that one names.
 _LONGEST_HEADER, _MOST_FILES = 1 << 20, 65536
@@ -33,7 +35,8 @@ def files_of(path, listed=False):
     - a folder: all files below it
     - a file of DICOM that is not listed, or of a store's metadata: the folder around it
     - a header: itself and the files that it names, or that belong to it, with its values
-    - a table of electrodes or optodes: itself and the `_coordsystem.json` that is about it
+    - a table of electrodes or optodes: itself and the `_coordsystem.json` that is about it, beside
+      it or above it in its data set
     - any other, even if it does not exist: itself
 
     Raises `OSError` if a folder or a header cannot be read.
@@ -162,13 +165,31 @@ def _numbered(words):
 
 def _about(table):
     """The coordsystem.json that is about a table: of those whose entities are all the table's, the
-    one with the most, as the reader takes it."""
+    one with the most, beside it or in a folder of its data set above it, as the reader takes it."""
+    own = _entities(os.path.basename(table))
     folder = os.path.dirname(table)
+    for _ in range(_MOST_ABOVE + 1):
+        names = [name for name in os.listdir(folder or ".")
+                 if name.endswith(_ABOUT) and _entities(name) <= own]
+        most = max((len(_entities(name)) for name in names), default=0)
+        found = [os.path.join(folder, name) for name in names if len(_entities(name)) == most > 0]
+        if found or not _is_in_data_set(folder):
+            return found
+        folder = os.path.dirname(os.path.abspath(folder))
+    return []
 
-    def entities(name):
-        return set(name.split("_")[:-1])
-    own = entities(os.path.basename(table))
-    names = [name for name in os.listdir(folder or ".")
-             if name.endswith(_ABOUT) and entities(name) <= own]
-    most = max((len(entities(name)) for name in names), default=0)
-    return [os.path.join(folder, name) for name in names if len(entities(name)) == most > 0]
+
+def _entities(name):
+    return set(name.split("_")[:-1])
+
+
+def _is_in_data_set(folder):
+    """Whether a folder is below the root of a data set of BIDS."""
+    above = os.path.abspath(folder)
+    if os.path.exists(os.path.join(above, _ROOT_OF_BIDS)):
+        return False
+    for _ in range(_MOST_ABOVE):
+        above = os.path.dirname(above)
+        if os.path.exists(os.path.join(above, _ROOT_OF_BIDS)):
+            return True
+    return False

@@ -284,14 +284,17 @@ def reader_of(path, **properties):
         raise FileNotFoundError(f"there is no {path}")
     if ending(path) in POINTS or path.lower().endswith(".json"):
         source = simple.LandmarkReader(FileName=path, **properties)
-    elif ending(path) in (".nii", ".nii.gz"):
+    elif path.lower().endswith((".nii", ".nii.gz", ".hdr", ".img", ".hdr.gz", ".img.gz")):
         source = simple.NIFTIVolumeReader(FileName=path)
     elif path.rstrip("/").lower().endswith(".zarr"):
         source = simple.OMEZarrReader(FileName=path)
     elif os.path.isdir(path):
         source = simple.DICOMVolumeReader(FileName=path)
     else:
-        source = simple.OpenDataFile(path)
+        try:
+            source = simple.OpenDataFile(path)
+        except RuntimeError:  # no reader was found
+            source = None
     if source is None:
         raise ValueError(f"{path} has a format that ParaView does not read")
     return source

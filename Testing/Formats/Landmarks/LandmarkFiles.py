@@ -12,6 +12,7 @@ from brainshift_testing import assert_says, data, load_plugin, messages, run_tes
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift import rolefiles  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 
 AFIDS = data("afids-colin27", "sub-Colin27_afids.fcsv")
@@ -103,6 +104,11 @@ def test_markups_of_slicer():
         points = brainshift.read_points(written("points.mrk.json", text))
         assert points.labels == LABELS, points.labels
         assert numpy.array_equal(points.positions, PLACES * signs), system
+    # The code of a unit, its scheme and its name, as Slicer's schema 1.0.3 has them.
+    text = markups({"coordinateUnits": ["mm", "UCUM", "millimeter"], "coordinateSystem": "RAS",
+                    "controlPoints": controls(PLACES, LABELS)})
+    assert numpy.array_equal(
+        brainshift.read_points(written("units.mrk.json", text)).positions, PLACES)
     # Several lists, each with its own axes; none named is LPS, the schema's default.
     text = markups({"type": "Curve", "coordinateSystem": "RAS",
                     "controlPoints": controls(PLACES[:1], ["r"])},
@@ -351,6 +357,7 @@ def walked_units_and_frames():
                   ("frame", "1", (1, 2, 3), ""))]
     cases += [("# units", text, right, words) for text, right, words in (
         ("# CoordinateSystem = LPS\n" + table, (-1, -2, 3), ""),
+        ("# CoordinateSystem = LPS,,, ,\n" + table, (-1, -2, 3), ""),  # of a spreadsheet
         ("#space: lps\n" + table, (-1, -2, 3), ""), ("# units: cm\n" + table, (10, 20, 30), ""),
         ("# unit = mm, as in the scan\n" + table, (1, 2, 3), ""),
         (table + "# coordinate units: cm\n", (10, 20, 30), ""),
@@ -470,6 +477,33 @@ def test_words_of_the_columns_that_a_caller_names_count():
         assert words in refusal("walk.csv", text, columns=names.split(",")), names
 
 
+def test_a_coordsystem_above_its_table_counts_in_a_data_set():
+    table = "data/sub-01/ieeg/sub-01_electrodes.tsv"
+    os.makedirs(scratch("data/sub-01/ieeg"), exist_ok=True)
+    written(table, "name\tx\ty\tz\nLA1\t1\t2\t3\n")
+    written("data/sub-01_coordsystem.json", json.dumps({
+        "EMGCoordinateSystem": "ScanRAS", "EMGCoordinateUnits": "cm"}))
+    with messages() as said:
+        assert brainshift.read_points(scratch(table)).positions.tolist() == [[1, 2, 3]]
+    assert "no coordsystem.json beside it" in said.text  # the folders are no data set
+    written("data/dataset_description.json", "{}")
+    with messages() as said:
+        assert brainshift.read_points(scratch(table)).positions.tolist() == [[10, 20, 30]]
+    assert not said.text, said.text
+    assert scratch("data/sub-01_coordsystem.json") in rolefiles.files_of(scratch(table))
+    written("data/sub-01_coordsystem.json", json.dumps({
+        "EMGCoordinateSystem": "Other", "EMGCoordinateUnits": "percent"}))
+    assert "says the unit percent" in refusal(table, "name\tx\ty\tz\nLA1\t1\t2\t3\n")
+
+
+def test_a_head_of_less_than_a_millimetre_is_doubted():
+    for count, words in ((4, "has 4 points within"), (3, "")):
+        rows = [f"e{i},{0.01 * i},{0.02 * i},0.1" for i in range(count)]
+        with messages() as said:
+            brainshift.read_points(written("small.csv", "\n".join(["name,x,y,z", *rows])))
+        assert words in said.text and ("in metres" in said.text) == bool(words), said.text
+
+
 def walked_electrodes():
     table = "sub-01_ses-1_space-X_electrodes.tsv"
     text = "name\tx\ty\tz\tsize\nLA1\t1\t2\t3\t5\nLA2\tn/a\tn/a\tn/a\tn/a\n"
@@ -480,6 +514,9 @@ def walked_electrodes():
         assert brainshift.read_points(written(table, text)).positions.tolist() == [[1, 2, 3]]
     assert_says(said.text, "no coordsystem.json", "1 point without a position")
     written("sub-02_coordsystem.json", '{"iEEGCoordinateUnits": "um"}')  # of another
+    with messages() as said:
+        brainshift.read_points(scratch(table))
+    assert_says(said.text, "sub-02_coordsystem.json is about other positions", "may be wrong")
     written("sub-01_coordsystem.json", '{"iEEGCoordinateUnits": "cm"}')
     beside = "sub-01_space-X_coordsystem.json"
     for unit, mm in (("mm", 1), ("cm", 10), ("m", 1000), ("um", 1e-3)):
@@ -560,6 +597,8 @@ def test_damaged_files_end_in_one_sentence():
         ("a.mrk.json", markups({"controlPoints": [{"position": [1, 2, 1e7]}]}), "1e+07 mm"),
         ("a.mrk.json", markups({"coordinateSystem": "IJK"}), "coordinate system IJK"),
         ("a.mrk.json", markups({"coordinateUnits": "um"}), "other than mm"),
+        ("a.mrk.json", markups({"coordinateUnits": ["cm", "UCUM", "mm"]}), "other than mm"),
+        ("a.mrk.json", markups({"coordinateUnits": ["mm", "DCM"]}), "scheme other than UCUM"),
         ("a.fcsv", head.replace("RAS", "2") + "1,1,2,3\n", "coordinate system 2"),
         ("a.fcsv", head + "1,1,2,x\n", 'line 2 that has no number z, but "x"'),
         ("a.fcsv", head + "1,1,2\n", 'no number z, but ""'),

@@ -47,6 +47,10 @@ TEST(NIFTIReaderErrors, FilesThatAreNoNIFTI)
   NIFTITestFile analyze;
   analyze.magic = "";
   expectFailure(analyze.bytes(), "is not NIfTI");
+  std::vector<char> cifti = NIFTITestFile().bytes();
+  cifti[68] = static_cast<char>(3006 & 0xff); // intent_code of dense scalars
+  cifti[69] = 3006 >> 8;
+  expectFailure(cifti, "is a CIFTI file of values of surfaces and grey matter, and no volume");
 }
 
 TEST(NIFTIReaderErrors, TruncatedFiles)

@@ -125,6 +125,9 @@ TEST(TextHeaderSaid, KeysOfMetaImageThatAreAlmostThoseOfTheFormat)
     metaImage({ { "TransformMatrix", "" }, { "TransformMaTrix", "-1 0 0 0 -1 0 0 0 1" } }),
     "has the key 'TransformMaTrix' in other capitals than MetaImage's");
   EXPECT_EQ(saidOf<Meta>("slip.mha", metaImage({ { "0008|0020", "2026" }, { "Namen", "a" } })), "");
+  EXPECT_EQ(saidOf<Meta>("of_nifti.mha", // ITK copies the header of NIfTI
+              metaImage({ { "toffset", "0" }, { "vox_offset", "352" }, { "scl_slope", "1" } })),
+    "");
 }
 
 TEST(TextHeaderSaid, DistancesThatAreNotThere)
