@@ -308,7 +308,7 @@ def test_damaged_surfaces_end_in_one_sentence():
         (lambda data: b"", "does not begin like a FreeSurfer surface"),
         (lambda data: b"\xff\xff\xfd" + data[3:], "quadrangles"),
         (lambda data: b"\xff\xff\xff\xff" + data[4:], "flat patch of FreeSurfer"),
-        (lambda data: b"\xff\xff\xff\0" + data[4:], "name this file as one of its Value File Names"),
+        (lambda data: b"\xff\xff\xff\0" + data[4:], "as one of its Value File Names"),
         (lambda data: b"\x1f\x8b" + data[2:], "is packed by gzip; unpack it"),
         (lambda data: data[:head + 4], "ends within its header"),
         (lambda data: data[:end - 1], "announces 4 points and 4 triangles, and has only 95 bytes"),
