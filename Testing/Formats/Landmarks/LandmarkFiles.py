@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import re
+import shutil
 
 import numpy
 from brainshift_testing import assert_says, data, load_plugin, messages, run_tests, scratch
@@ -479,7 +480,8 @@ def test_words_of_the_columns_that_a_caller_names_count():
 
 def test_a_coordsystem_above_its_table_counts_in_a_data_set():
     table = "data/sub-01/ieeg/sub-01_electrodes.tsv"
-    os.makedirs(scratch("data/sub-01/ieeg"), exist_ok=True)
+    shutil.rmtree(scratch("data"), ignore_errors=True)
+    os.makedirs(scratch("data/sub-01/ieeg"))
     written(table, "name\tx\ty\tz\nLA1\t1\t2\t3\n")
     written("data/sub-01_coordsystem.json", json.dumps({
         "EMGCoordinateSystem": "ScanRAS", "EMGCoordinateUnits": "cm"}))
