@@ -396,6 +396,7 @@ const GIFTIArray* firstOf(const GIFTIFile& file, const std::string& intent, Surf
 void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface& surface)
 {
   GIFTIFile file = readGIFTIFile(text);
+  surface.notes = file.notes;
   const GIFTIArray* const points = firstOf(file, PointIntent, surface);
   const GIFTIArray* const triangles = firstOf(file, TriangleIntent, surface);
   if (!points || !triangles)
@@ -405,7 +406,6 @@ void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface
   }
   requireShape(*points, "points", false);
   requireShape(*triangles, "triangles", true);
-  surface.notes = file.notes;
   findPlace(file, *points, surface);
   takePoints(*points, surface);
   takeTriangles(*triangles, surface);

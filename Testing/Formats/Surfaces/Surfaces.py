@@ -189,6 +189,18 @@ def test_gifti_lies_where_its_matrix_leads():
         assert_at(read(name, ["does not name the space", TALAIRACH]), POINTS, None)
 
 
+def test_all_doubts_about_a_gifti_file_are_told():
+    arrays = gifti_arrays(system(SCANNER, SCANNER))
+    name = write_gifti(scratch("doubtful.surf.gii"), [arrays[0], *arrays])
+    with open(name, "rb") as file:
+        text = file.read()
+    count = f'NumberOfDataArrays="{len(arrays) + 1}"'.encode()
+    assert count in text, text[:400]
+    with open(name, "wb") as file:
+        file.write(text.replace(count, b'NumberOfDataArrays="9"'))
+    read(name, ["NIFTI_INTENT_POINTSET; the first is shown", "NumberOfDataArrays announces 9"])
+
+
 def test_gifti_of_freesurfer_keeps_its_volume():
     for image in volumes():
         kept = {f"VolGeom{letter}_{side}": str(vector[i])
