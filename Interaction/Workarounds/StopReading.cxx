@@ -5,6 +5,7 @@
 #include "Formats/Volumes/vtkVolumeFileReader.h"
 
 #include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
 #include <pqPipelineSource.h>
 #include <pqProgressManager.h>
 #include <pqServerManagerModel.h>
@@ -37,17 +38,17 @@ std::vector<vtkVolumeFileReader*> readersAtWork()
   return readers;
 }
 
+// Null before the window has its status bar.
+QAbstractButton* cross()
+{
+  const QWidget* window = pqCoreUtilities::mainWidget();
+  return window ? window->findChild<QAbstractButton*>("AbortButton") : nullptr;
+}
+
 bool isOnCross(const QMouseEvent& event)
 {
-  for (QWidget* window : QApplication::topLevelWidgets())
-  {
-    const auto* cross = window->findChild<QAbstractButton*>("AbortButton");
-    if (cross && cross->rect().contains(cross->mapFromGlobal(event.globalPosition().toPoint())))
-    {
-      return true;
-    }
-  }
-  return false;
+  const QAbstractButton* button = cross();
+  return button && button->rect().contains(button->mapFromGlobal(event.globalPosition().toPoint()));
 }
 }
 
@@ -55,9 +56,15 @@ StopReading::StopReading(QObject* parent)
   : QObject(parent)
   , Manager(pqApplicationCore::instance()->getProgressManager())
 {
+  this->connect(this->Manager, &pqProgressManager::progressStartEvent, this, [this] {
+    if (const QAbstractButton* button = cross())
+    {
+      this->connect(
+        button, &QAbstractButton::pressed, this, &StopReading::stop, Qt::UniqueConnection);
+    }
+  });
 #if PARAVIEW_VERSION_MAJOR < 6 || (PARAVIEW_VERSION_MAJOR == 6 && PARAVIEW_VERSION_MINOR < 1)
   this->connect(this->Manager, &pqProgressManager::progress, this, &StopReading::handlePress);
-  this->connect(this->Manager, &pqProgressManager::abort, this, &StopReading::stop);
   this->connect(this->Manager, &pqProgressManager::progressEndEvent, this,
     [this] { this->Manager->setEnableAbort(false); });
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The cross beside the progress bar, while one of our readers reads on this machine, or a large
-/// volume is written: it stops that. ParaView has this itself from 6.1 on, and before that never
-/// enables the cross.
+/// volume is written: it stops that. ParaView enables the cross from 6.1 on alone, and stops then
+/// what its pipeline shows: a writer is not in it.
 #ifndef BrainShift_StopReading_h
 #define BrainShift_StopReading_h
 
