@@ -141,9 +141,9 @@ LinePoint lowestAlong(const std::function<double(double)>& function, double valu
 
 namespace
 {
-constexpr int Pieces = 8;          // of the samples; each has a histogram of its own
-constexpr double Tolerance = 0.01; // of the level's spacing, for the minimum on a line
-constexpr double Converged = 1e-4; // fraction of the information that a round must gain
+constexpr int Pieces = 8;                 // of the samples; each has a histogram of its own
+constexpr std::size_t FewSamples = 30000; // not worth a second thread
+constexpr double Converged = 1e-4;        // fraction of the information that a round must gain
 constexpr double FarthestStartMm = 30.0;
 constexpr double FarthestStartDegrees = 30.0;
 
@@ -168,17 +168,19 @@ std::vector<Volume> pyramid(const Volume& volume, const std::vector<double>& lev
   return levels;
 }
 
-// Positions on a grid from positions in the world.
-struct GridFromWorld
+// Positions on a grid that was moved, from positions in the world.
+struct MovedGrid
 {
-  explicit GridFromWorld(const Grid& grid)
+  MovedGrid(const Grid& grid, const RigidPose& motion)
     : rotation(glm::transpose(grid.direction))
-    , origin(rotation * grid.origin / grid.spacing)
   {
     for (int column = 0; column < 3; ++column)
     {
       this->rotation[column] /= grid.spacing;
     }
+    this->origin = this->rotation * grid.origin;
+    this->rotation = this->rotation * glm::transpose(motion.rotation);
+    this->origin += this->rotation * motion.translation;
   }
   glm::dvec3 operator()(const glm::dvec3& world) const
   {
@@ -189,24 +191,26 @@ struct GridFromWorld
   glm::dvec3 origin;
 };
 
-// The voxel of a mask that is nearest to a position.
+// The voxel of a moved mask that is nearest to a position in the world.
 struct NearestVoxel
 {
-  explicit NearestVoxel(const Mask& of)
+  NearestVoxel(const Mask& of, const RigidPose& motion)
     : mask(&of)
-    , inMask(of.grid)
+    , inMask(of.grid, motion)
   {
   }
   bool isInside(const glm::dvec3& world) const
   {
-    const glm::ivec3 cell(glm::floor(this->inMask(world) + 0.5));
+    const glm::dvec3 at = this->inMask(world) + 0.5;
     const glm::ivec3& sides = this->mask->grid.dimensions;
-    return cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < sides.x && cell.y < sides.y &&
-      cell.z < sides.z && this->mask->inside[this->mask->grid.offset(cell.x, cell.y, cell.z)];
+    return at.x >= 0.0 && at.y >= 0.0 && at.z >= 0.0 && at.x < sides.x && at.y < sides.y &&
+      at.z < sides.z &&
+      this->mask->inside[this->mask->grid.offset(
+        static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z))];
   }
 
   const Mask* mask;
-  GridFromWorld inMask;
+  MovedGrid inMask;
 };
 
 // The masks of what a reference lacks that have voxels.
@@ -331,17 +335,22 @@ double Alignment::loss(const Parameters& at, double* overlap) const
   const Volume& reference = this->References[this->Progress.level];
   const std::vector<Sample>& samples = this->Samples[this->Progress.level];
   const RigidPose motion = this->motionOf(at);
-  const GridFromWorld inReference(reference.grid);
-  const std::vector<NearestVoxel> missing(this->Missing.begin(), this->Missing.end());
+  const MovedGrid inReference(reference.grid, motion);
+  std::vector<NearestVoxel> missing;
+  for (const Mask& mask : this->Missing)
+  {
+    missing.emplace_back(mask, motion);
+  }
   std::vector<JointHistogram> parts(Pieces);
   std::vector<double> within(Pieces, 0.0);
-  parallelFor(0, Pieces, 1, [&](std::int64_t begin, std::int64_t end) {
+  const int grain = samples.size() < FewSamples ? Pieces : 1;
+  parallelFor(0, Pieces, grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t piece = begin; piece < end; ++piece)
     {
       const std::size_t last = samples.size() * (piece + 1) / Pieces;
       for (std::size_t i = samples.size() * piece / Pieces; i < last; ++i)
       {
-        const glm::dvec3 position = motion.applyInverse(samples[i].position);
+        const glm::dvec3& position = samples[i].position;
         const Neighbours found =
           neighboursOf(reference.grid.dimensions, glm::vec3(inReference(position)));
         const auto isThere = [&](const NearestVoxel& mask) { return mask.isInside(position); };
@@ -409,8 +418,8 @@ double Alignment::searchLine(const Parameters& direction)
     return at;
   };
   const double stride = this->Rounds == 0 ? spacingMm : 0.25 * spacingMm;
-  const LinePoint found = lowestAlong(
-    [&](double by) { return this->loss(moved(by)); }, this->Loss, stride, Tolerance * spacingMm);
+  const LinePoint found = lowestAlong([&](double by) { return this->loss(moved(by)); }, this->Loss,
+    stride, this->Settings.tolerance * spacingMm);
   const double gain = this->Loss - found.value;
   this->Best = moved(found.at);
   this->Loss = found.value;

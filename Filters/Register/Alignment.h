@@ -74,6 +74,7 @@ struct AlignmentSettings
   std::size_t mostSamples = 80000;               ///< on each level
   int mostRounds = 8; ///< through all directions, on the coarsest level; three times on others
   int starts = 1; ///< positions from which the coarsest level searches; 1 to MostStarts (Starts.h)
+  double tolerance = 0.01; ///< of the minimum on a line, as a fraction of the level's spacing
 };
 
 /** The figures after a step. */

@@ -33,6 +33,12 @@ constexpr double BorderMm = SpacingMm; // of a volume, where smoothing reads wha
 
 constexpr int PartsBefore = 4; // of the work, before blocks are compared
 
+// Points side by side say nearly the same, so a block takes every second one, a checkerboard.
+bool isTaken(const glm::ivec3& at)
+{
+  return (at.x + at.y + at.z) % 2 == 0;
+}
+
 template <typename Visit>
 void forEachIndex(const glm::ivec3& first, const glm::ivec3& last, const Visit& visit)
 {
@@ -75,14 +81,20 @@ Grid without(Grid grid, double borderMm)
   return grid;
 }
 
+// Four sums side by side, which the compiler makes vector instructions of.
 float differenceOf(const float* a, const float* b, int numbers)
 {
-  float sum = 0.0f;
-  for (int i = 0; i < numbers; ++i)
+  constexpr int Lanes = 4;
+  float sums[Lanes] = {};
+  for (int i = 0; i < numbers; i += Lanes)
   {
-    sum += (a[i] - b[i]) * (a[i] - b[i]);
+    for (int lane = 0; lane < Lanes; ++lane)
+    {
+      const float difference = a[i + lane] - b[i + lane];
+      sums[lane] += difference * difference;
+    }
   }
-  return sum;
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 }
 
@@ -121,7 +133,7 @@ void BlockCheck::findPlaces()
   parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
     forEachIndex({ 0, 0, begin }, { last.x, last.y, end - 1 }, [&](const glm::ivec3& at) {
       const std::size_t number = grid.offset(at.x, at.y, at.z);
-      if (this->RestWeights.values[number] > 0.0f)
+      if (isTaken(at) && this->RestWeights.values[number] > 0.0f)
       {
         const glm::dvec3 rest = grid.worldFromGrid(at);
         const glm::dvec3 now = rest + displacementOfTissue(this->Result, rest);
@@ -147,7 +159,7 @@ std::vector<BlockCheck::Tissue> BlockCheck::tissueOf(const Block& block) const
   std::vector<Tissue> tissue;
   int points = 0;
   forEachIndex(block.first, block.first + BlockPoints - 1, [&](const glm::ivec3& at) {
-    if ((at.x + at.y + at.z) % 2 == 0) // points side by side say nearly the same
+    if (isTaken(at))
     {
       ++points;
       const std::size_t number = grid.offset(at.x, at.y, at.z);

@@ -15,6 +15,7 @@ constexpr double CoarseMm = 8.0;
 constexpr double FineMm = 4.0;
 constexpr std::size_t CoarseSamples = 4000;
 constexpr std::size_t FineSamples = 20000;
+constexpr double Tolerance = 0.1;    // of a search, as a fraction of the spacing
 constexpr int Finals = 3;            // beside the reference as it is
 constexpr double Alike = 0.9;        // of the information on the coarse level
 constexpr std::size_t Searched = 12; // of the 48 orientations
@@ -68,6 +69,7 @@ AlignmentSettings settingsOf(std::vector<double> levelsMm, std::size_t samples, 
   settings.levelsMm = std::move(levelsMm);
   settings.mostSamples = samples;
   settings.mostRounds = rounds;
+  settings.tolerance = Tolerance;
   return settings;
 }
 }
