@@ -14,12 +14,26 @@
 #include <iterator>
 #include <limits>
 #include <set>
+#include <utility>
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
 
 namespace brainshift
 {
 namespace
 {
 constexpr std::int64_t MostBlockBytes = 192 << 20; // of voxels that neighbours may need, too
+constexpr int MostThreads = 4;
+
+// Where cores are few, a picture goes before bricks.
+void giveWay()
+{
+#ifdef __linux__
+  constexpr int Nicer = 10;
+  setpriority(PRIO_PROCESS, 0, Nicer); // of this thread alone
+#endif
+}
 
 // First and last rest brick along an axis that each voxel of a slot can reach.
 struct Reach
@@ -48,27 +62,38 @@ Reach reachAlong(int axis, int brick, const BrickOrder& order)
   return reach;
 }
 
+const glm::vec2 NoNumbers(std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest());
+
 template <typename T>
 void widen(CoveredRanges& covered, const std::vector<T>& numbers, float scale,
   const std::array<Reach, 3>& reach)
 {
   const glm::ivec3& count = covered.found.count;
+  const auto include = [](glm::vec2& range, const glm::vec2& numbers) {
+    range.x = numbers.x < range.x ? numbers.x : range.x; // false for NaN
+    range.y = numbers.y > range.y ? numbers.y : range.y;
+  };
+  std::vector<glm::vec2> ofRow(count.x);
   std::size_t at = 0;
   for (int z = 0; z < SlotSideVoxels; ++z)
   {
     for (int y = 0; y < SlotSideVoxels; ++y)
     {
+      std::fill(ofRow.begin(), ofRow.end(), NoNumbers);
       for (int x = 0; x < SlotSideVoxels; ++x, ++at)
       {
-        const float number = scale * static_cast<float>(numbers[at]);
-        const glm::ivec3 first(reach[0].first[x], reach[1].first[y], reach[2].first[z]);
-        const glm::ivec3 last(reach[0].last[x], reach[1].last[y], reach[2].last[z]);
-        forEachIndex(first - covered.first, last - covered.first, [&](const glm::ivec3& rest) {
-          glm::vec2& range = covered.found.ranges[(rest.z * count.y + rest.y) * count.x + rest.x];
-          range.x = number < range.x ? number : range.x; // false for NaN
-          range.y = number > range.y ? number : range.y;
-        });
+        const glm::vec2 number(scale * static_cast<float>(numbers[at]));
+        for (int rest = reach[0].first[x]; rest <= reach[0].last[x]; ++rest)
+        {
+          include(ofRow[rest - covered.first.x], number);
+        }
       }
+      forEachIndex({ 0, reach[1].first[y] - covered.first.y, reach[2].first[z] - covered.first.z },
+        { count.x - 1, reach[1].last[y] - covered.first.y, reach[2].last[z] - covered.first.z },
+        [&](const glm::ivec3& rest) {
+          include(
+            covered.found.ranges[(rest.z * count.y + rest.y) * count.x + rest.x], ofRow[rest.x]);
+        });
     }
   }
 }
@@ -96,10 +121,8 @@ CoveredRanges coveredRanges(
     covered.first[axis] = reach[axis].first.front();
     covered.found.count[axis] = reach[axis].last.back() - covered.first[axis] + 1;
   }
-  constexpr float most = std::numeric_limits<float>::max();
   const glm::ivec3& count = covered.found.count;
-  covered.found.ranges.assign(
-    static_cast<std::size_t>(count.x) * count.y * count.z, glm::vec2(most, -most));
+  covered.found.ranges.assign(static_cast<std::size_t>(count.x) * count.y * count.z, NoNumbers);
   if (numbers.floats.empty())
   {
     widen(covered, numbers.sixteenBits, ShaderFromSixteenBits, reach);
@@ -113,8 +136,14 @@ CoveredRanges coveredRanges(
 
 BrickLoader::BrickLoader(const LevelSource& source)
   : Source(source)
-  , Thread([this] { this->run(); })
 {
+  const int threads =
+    std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, MostThreads);
+  this->Levels.resize(threads);
+  for (std::size_t thread = 0; thread < this->Levels.size(); ++thread)
+  {
+    this->Threads.emplace_back([this, thread] { this->run(thread); });
+  }
 }
 
 BrickLoader::~BrickLoader()
@@ -124,7 +153,10 @@ BrickLoader::~BrickLoader()
     this->Stopped = true;
   }
   this->Wake.notify_all();
-  this->Thread.join();
+  for (std::thread& thread : this->Threads)
+  {
+    thread.join();
+  }
 }
 
 std::vector<Grid> BrickLoader::grids()
@@ -146,10 +178,14 @@ void BrickLoader::order(const BrickOrder& order, const std::vector<int>& bricks)
     if (!(this->Order == order))
     {
       this->Read.clear();
-      this->Current = -1;
+      this->Current.clear();
     }
     this->Order = order;
-    std::set<int> known{ this->Current };
+    std::set<int> known;
+    for (const auto& [number, brick] : this->Current)
+    {
+      known.insert(brick);
+    }
     for (const ReadBrick& read : this->Read)
     {
       known.insert(read.brick);
@@ -167,7 +203,10 @@ std::vector<ReadBrick> BrickLoader::take(std::size_t most)
   std::vector<ReadBrick> taken;
   {
     const std::lock_guard<std::mutex> lock(this->Lock);
-    while (!this->Read.empty() && taken.size() < most)
+    const auto isNext = [this](const ReadBrick& read) {
+      return this->Current.empty() || read.number < this->Current.begin()->first;
+    };
+    while (!this->Read.empty() && isNext(this->Read.front()) && taken.size() < most)
     {
       taken.push_back(std::move(this->Read.front()));
       this->Read.pop_front();
@@ -183,7 +222,7 @@ std::int64_t BrickLoader::waiting()
   return !this->Opened
     ? 1
     : static_cast<std::int64_t>(this->Wanted.size() - this->Next + this->Read.size()) +
-      (this->Reading ? 1 : 0);
+      this->Reading;
 }
 
 std::int64_t BrickLoader::countRead()
@@ -196,7 +235,7 @@ bool BrickLoader::isDone()
 {
   const std::lock_guard<std::mutex> lock(this->Lock);
   return this->Read.size() >= MostBricksInPicture ||
-    (this->Opened && !this->Reading && this->Next >= this->Wanted.size());
+    (this->Opened && this->Reading == 0 && this->Next >= this->Wanted.size());
 }
 
 bool BrickLoader::isStopped()
@@ -206,74 +245,89 @@ bool BrickLoader::isStopped()
 }
 
 // Waits for the next brick that is wanted. False: stopped.
-bool BrickLoader::next(BrickOrder& order, int& brick)
+bool BrickLoader::next(BrickOrder& order, ReadBrick& read)
 {
   std::unique_lock<std::mutex> lock(this->Lock);
-  this->Reading = false;
-  this->Current = -1;
   this->Wake.wait(lock, [this] {
     return this->Stopped ||
-      (this->Next < this->Wanted.size() && this->Read.size() < MostBricksInPicture);
+      (this->Opened && this->Next < this->Wanted.size() && this->Read.size() < MostBricksInPicture);
   });
   if (this->Stopped)
   {
     return false;
   }
   order = this->Order;
-  brick = this->Wanted[this->Next++];
-  this->Current = brick;
-  this->Reading = true;
+  read.brick = this->Wanted[this->Next++];
+  read.number = this->Begun++;
+  this->Current[read.number] = read.brick;
+  this->Reading += 1;
   return true;
 }
 
+void BrickLoader::finish(const BrickOrder& order, ReadBrick read)
+{
+  const std::lock_guard<std::mutex> lock(this->Lock);
+  this->Reading -= 1;
+  if (this->Order == order)
+  {
+    this->Current.erase(read.number);
+    const auto after = std::find_if(this->Read.begin(), this->Read.end(),
+      [&](const ReadBrick& other) { return other.number > read.number; });
+    this->Read.insert(after, std::move(read));
+  }
+}
+
+// All at once: a store that is written anew later must not be read half as it was.
 void BrickLoader::open()
 {
-  const std::string problem = sentenceThrownBy("The finer levels of the volume",
-    [this] { this->Levels = std::make_unique<FinerLevels>(this->Source); });
+  const std::string problem = sentenceThrownBy("The finer levels of the volume", [&] {
+    for (std::unique_ptr<FinerLevels>& levels : this->Levels)
+    {
+      levels = std::make_unique<FinerLevels>(this->Source);
+    }
+  });
   const std::lock_guard<std::mutex> lock(this->Lock);
   this->Opened = true;
   this->Problem = problem;
   if (problem.empty())
   {
-    this->Grids = this->Levels->grids();
+    this->Grids = this->Levels.front()->grids();
   }
 }
 
-void BrickLoader::run()
+void BrickLoader::run(std::size_t thread)
 {
   keepLoopsOnThisThread();
-  this->open();
-  BrickOrder order;
-  int brick = 0;
-  while (this->next(order, brick))
+  giveWay();
+  if (thread == 0)
   {
-    ReadBrick read;
-    const std::string failure =
-      sentenceThrownBy("A brick of the volume", [&] { read = this->read(order, brick); });
+    this->open();
+  }
+  BrickOrder order;
+  ReadBrick read;
+  while (this->next(order, read))
+  {
+    const std::string failure = sentenceThrownBy(
+      "A brick of the volume", [&] { this->read(*this->Levels[thread], order, read); });
     if (!failure.empty())
     {
-      read = ReadBrick();
+      read.numbers = {};
       read.remark = failure;
     }
-    read.brick = brick;
-    const std::lock_guard<std::mutex> lock(this->Lock);
-    this->Current = -1;
-    if (this->Order == order)
-    {
-      this->Read.push_back(std::move(read));
-    }
+    this->finish(order, std::exchange(read, {}));
   }
 }
 
 BrickLoader::Block BrickLoader::readBlock(
-  const BrickOrder& order, const glm::ivec3& place, int side)
+  FinerLevels& levels, const BrickOrder& order, const glm::ivec3& place)
 {
+  const int side = levels.blockSide(order.fine.level);
   Block block;
   block.first = place * side;
   block.size = glm::min(block.first + side, order.fine.voxels) - block.first;
   const glm::ivec3 last = block.first + block.size - 1;
   const int extent[6] = { block.first.x, last.x, block.first.y, last.y, block.first.z, last.z };
-  const auto numbers = this->Levels->read(
+  const auto numbers = levels.read(
     order.fine.level, extent, [this](double) { return !this->isStopped(); }, block.remark);
   if (!numbers)
   {
@@ -283,30 +337,45 @@ BrickLoader::Block BrickLoader::readBlock(
   return block;
 }
 
-// Bricks side by side need the same voxels: each block is unpacked once.
-const BrickLoader::Block& BrickLoader::blockAt(
-  const BrickOrder& order, const glm::ivec3& place, int side)
+// Bricks side by side need the same voxels: each block is unpacked once, also for two threads.
+std::shared_ptr<const BrickLoader::Block> BrickLoader::blockAt(
+  FinerLevels& levels, const BrickOrder& order, const glm::ivec3& place)
 {
   const BlockKey key{ static_cast<int>(order.fine.level), order.component, place.x, place.y,
     place.z };
-  auto block = this->Blocks.find(key);
-  if (block == this->Blocks.end())
+  std::shared_ptr<KnownBlock> known;
   {
-    block = this->Blocks.emplace(key, this->readBlock(order, place, side)).first;
-    this->BlockBytes += block->second.numbers.bytes();
+    const std::lock_guard<std::mutex> lock(this->BlocksLock);
+    std::shared_ptr<KnownBlock>& entry = this->Known[key];
+    entry = entry ? entry : std::make_shared<KnownBlock>();
+    entry->used = ++this->BlocksUsed;
+    known = entry;
   }
-  block->second.used = ++this->BlocksUsed;
-  return block->second;
+  const std::lock_guard<std::mutex> lock(known->lock);
+  if (!known->isRead)
+  {
+    known->block = this->readBlock(levels, order, place);
+    known->isRead = true;
+    const std::lock_guard<std::mutex> lockOfAll(this->BlocksLock);
+    const auto entry = this->Known.find(key);
+    if (entry != this->Known.end() && entry->second == known) // it was not forgotten meanwhile
+    {
+      known->bytes = static_cast<std::int64_t>(known->block.numbers.bytes());
+      this->BlockBytes += known->bytes;
+    }
+  }
+  return { known, &known->block };
 }
 
 void BrickLoader::forgetOldBlocks()
 {
-  while (this->BlockBytes > MostBlockBytes && this->Blocks.size() > 1)
+  const std::lock_guard<std::mutex> lock(this->BlocksLock);
+  while (this->BlockBytes > MostBlockBytes && this->Known.size() > 1)
   {
-    const auto oldest = std::min_element(this->Blocks.begin(), this->Blocks.end(),
-      [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
-    this->BlockBytes -= oldest->second.numbers.bytes();
-    this->Blocks.erase(oldest);
+    const auto oldest = std::min_element(this->Known.begin(), this->Known.end(),
+      [](const auto& a, const auto& b) { return a.second->used < b.second->used; });
+    this->BlockBytes -= oldest->second->bytes;
+    this->Known.erase(oldest);
   }
 }
 
@@ -368,17 +437,17 @@ void copyBlock(const Copied& copied, const std::vector<T>& from, std::vector<T>&
 }
 }
 
-ReadBrick BrickLoader::read(const BrickOrder& order, int brick)
+void BrickLoader::read(FinerLevels& levels, const BrickOrder& order, ReadBrick& read)
 {
   constexpr std::size_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
-  const int side = this->Levels->blockSide(order.fine.level);
-  const glm::ivec3 place = order.fine.positionOf(brick);
+  const int side = levels.blockSide(order.fine.level);
+  const glm::ivec3 place = order.fine.positionOf(read.brick);
   const glm::ivec3 low = place * StreamedSide - SlotBorder;
   const glm::ivec3 last = order.fine.voxels - 1;
-  ReadBrick read;
   forEachIndex(glm::max(low, glm::ivec3(0)) / side, glm::min(low + SlotSideVoxels - 1, last) / side,
     [&](const glm::ivec3& at) {
-      const Block& block = this->blockAt(order, at, side);
+      const std::shared_ptr<const Block> found = this->blockAt(levels, order, at);
+      const Block& block = *found;
       const Copied copied{ low, order.fine.voxels, block.first, block.size };
       read.numbers.floats.resize(block.numbers.floats.empty() ? 0 : SlotVoxels);
       read.numbers.sixteenBits.resize(block.numbers.sixteenBits.empty() ? 0 : SlotVoxels);
@@ -394,6 +463,5 @@ ReadBrick BrickLoader::read(const BrickOrder& order, int brick)
     });
   this->forgetOldBlocks();
   read.ranges = coveredRanges(read.numbers, place, order);
-  return read;
 }
 }

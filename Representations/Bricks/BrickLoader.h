@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Reads bricks of finer levels on a thread of its own. Only a picture that is saved waits for it.
+/// Reads bricks of finer levels on threads of their own. Only a picture that is saved waits for them.
 #ifndef BrainShift_BrickLoader_h
 #define BrainShift_BrickLoader_h
 
@@ -10,8 +10,10 @@
 #include <condition_variable>
 #include <list>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 namespace brainshift
 {
@@ -69,7 +71,8 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT CoveredRanges coveredRanges(
 struct ReadBrick
 {
   int brick = 0;
-  StoredNumbers numbers; ///< Of a slot, x fastest; empty: it could not be read.
+  std::int64_t number = 0; ///< Bricks are taken in the order in which they were begun.
+  StoredNumbers numbers;   ///< Of a slot, x fastest; empty: it could not be read.
   CoveredRanges ranges;
   std::string remark; ///< A sentence on what is not as the file should have it; may be empty.
 };
@@ -91,7 +94,8 @@ public:
   /// Replaces what is wanted, the most urgent brick first. Bricks of a different order are dropped.
   void order(const BrickOrder& order, const std::vector<int>& bricks);
 
-  /// Bricks that were read since the last call, up to `most`.
+  /// Bricks that were read since the last call, up to `most`; none before one that was begun before
+  /// it, so that places in a texture, and with them rounding, do not depend on the threads.
   std::vector<ReadBrick> take(std::size_t most);
 
   /// Bricks that are still to come, or were not taken; 1 while the headers are read.
@@ -110,22 +114,34 @@ private:
     glm::ivec3 first{ 0 };
     glm::ivec3 size{ 0 };
     std::string remark;
+  };
+  struct KnownBlock
+  {
+    std::mutex lock; // of the block; what else is here has that of all blocks
+    bool isRead = false;
+    Block block;
+    std::int64_t bytes = 0;
     std::int64_t used = 0;
   };
   using BlockKey = std::array<int, 5>; // level, component, place
+  using Blocks = std::map<BlockKey, std::shared_ptr<KnownBlock>>;
 
-  void run();
+  void run(std::size_t thread);
   void open();
-  bool next(BrickOrder& order, int& brick);
-  ReadBrick read(const BrickOrder& order, int brick);
-  const Block& blockAt(const BrickOrder& order, const glm::ivec3& place, int side);
-  Block readBlock(const BrickOrder& order, const glm::ivec3& place, int side);
+  bool next(BrickOrder& order, ReadBrick& read);
+  void finish(const BrickOrder& order, ReadBrick read);
+  void read(FinerLevels& levels, const BrickOrder& order, ReadBrick& read);
+  std::shared_ptr<const Block> blockAt(
+    FinerLevels& levels, const BrickOrder& order, const glm::ivec3& place);
+  Block readBlock(FinerLevels& levels, const BrickOrder& order, const glm::ivec3& place);
   void forgetOldBlocks();
   bool isStopped();
 
   LevelSource Source;
-  std::unique_ptr<FinerLevels> Levels; // of the thread
-  std::map<BlockKey, Block> Blocks;
+  std::vector<std::unique_ptr<FinerLevels>> Levels; // one for each thread, opened by the first
+
+  std::mutex BlocksLock; // of the next three
+  Blocks Known;
   std::int64_t BlocksUsed = 0;
   std::int64_t BlockBytes = 0;
 
@@ -137,11 +153,12 @@ private:
   std::string Problem;
   BrickOrder Order;
   std::vector<int> Wanted;
-  std::size_t Next = 0; // of Wanted
-  bool Reading = false;
-  int Current = -1; // that is read now, of the order; -1: none
-  std::list<ReadBrick> Read;
-  std::thread Thread;
+  std::size_t Next = 0;                // of Wanted
+  std::int64_t Begun = 0;              // bricks, of all orders
+  int Reading = 0;                     // threads that read a brick
+  std::map<std::int64_t, int> Current; // numbers and bricks of the order that are read now
+  std::list<ReadBrick> Read;           // by their numbers
+  std::vector<std::thread> Threads;
 };
 }
 

@@ -505,6 +505,25 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
   this->Changes += this->Quiet[this->Eye] == 1 ? 1 : 0; // a picture with other wishes
 }
 
+namespace
+{
+// The place of a brick along a Z-order curve (Morton, A computer oriented geodetic data base, 1966),
+// which leads through each block of 2, 4, 8 ... bricks a side before the next.
+std::uint64_t alongCurve(const glm::ivec3& position)
+{
+  constexpr int Bits = 20;
+  std::uint64_t place = 0;
+  for (int bit = Bits - 1; bit >= 0; --bit)
+  {
+    for (int axis = 2; axis >= 0; --axis)
+    {
+      place = 2 * place + (position[axis] >> bit & 1);
+    }
+  }
+  return place;
+}
+}
+
 // Those that can come: the bricks of most pixels first, in batches of neighbours, which share
 // chunks of the file.
 std::vector<int> StreamedBricks::inOrder(const std::map<int, int>& pixels)
@@ -537,11 +556,14 @@ std::vector<int> StreamedBricks::inOrder(const std::map<int, int>& pixels)
   {
     bricks.push_back(brick);
   }
+  const auto isBefore = [this](int a, int b) {
+    return alongCurve(this->Order.fine.positionOf(a)) < alongCurve(this->Order.fine.positionOf(b));
+  };
   for (std::size_t first = 0; first < bricks.size(); first += BricksInBatch)
   {
     const std::size_t end = std::min(first + BricksInBatch, bricks.size());
     std::sort(bricks.begin() + static_cast<std::ptrdiff_t>(first),
-      bricks.begin() + static_cast<std::ptrdiff_t>(end));
+      bricks.begin() + static_cast<std::ptrdiff_t>(end), isBefore);
   }
   return bricks;
 }
