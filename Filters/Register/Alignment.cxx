@@ -337,6 +337,7 @@ double Alignment::loss(const Parameters& at, double* overlap) const
   const RigidPose motion = this->motionOf(at);
   const MovedGrid inReference(reference.grid, motion);
   std::vector<NearestVoxel> missing;
+  missing.reserve(this->Missing.size());
   for (const Mask& mask : this->Missing)
   {
     missing.emplace_back(mask, motion);

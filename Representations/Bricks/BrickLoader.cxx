@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/Parallel.h"
+#include "Common/ThreadPriority.h"
 #include "Representations/Bricks/PageTable.h"
 #include "Representations/Skipping/RestPresence.h"
 
@@ -11,13 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <set>
 #include <utility>
-#ifdef __linux__
-#include <sys/resource.h>
-#endif
 
 namespace brainshift
 {
@@ -26,13 +25,9 @@ namespace
 constexpr std::int64_t MostBlockBytes = 192 << 20; // of voxels that neighbours may need, too
 constexpr int MostThreads = 4;
 
-// Where cores are few, a picture goes before bricks.
-void giveWay()
+std::int64_t bytesOf(vtkDataArray* numbers)
 {
-#ifdef __linux__
-  constexpr int Nicer = 10;
-  setpriority(PRIO_PROCESS, 0, Nicer); // of this thread alone
-#endif
+  return numbers->GetNumberOfValues() * numbers->GetDataTypeSize();
 }
 
 // First and last rest brick along an axis that each voxel of a slot can reach.
@@ -298,7 +293,7 @@ void BrickLoader::open()
 void BrickLoader::run(std::size_t thread)
 {
   keepLoopsOnThisThread();
-  giveWay();
+  giveWayToOtherThreads(); // pictures go before bricks
   if (thread == 0)
   {
     this->open();
@@ -327,13 +322,12 @@ BrickLoader::Block BrickLoader::readBlock(
   block.size = glm::min(block.first + side, order.fine.voxels) - block.first;
   const glm::ivec3 last = block.first + block.size - 1;
   const int extent[6] = { block.first.x, last.x, block.first.y, last.y, block.first.z, last.z };
-  const auto numbers = levels.read(
+  block.numbers = levels.read(
     order.fine.level, extent, [this](double) { return !this->isStopped(); }, block.remark);
-  if (!numbers)
+  if (!block.numbers)
   {
     throw brainshift::Problem("was not read: the volume is no longer drawn");
   }
-  block.numbers = ScalarTexture::storedNumbers(numbers, block.size, order.component);
   return block;
 }
 
@@ -341,8 +335,7 @@ BrickLoader::Block BrickLoader::readBlock(
 std::shared_ptr<const BrickLoader::Block> BrickLoader::blockAt(
   FinerLevels& levels, const BrickOrder& order, const glm::ivec3& place)
 {
-  const BlockKey key{ static_cast<int>(order.fine.level), order.component, place.x, place.y,
-    place.z };
+  const BlockKey key{ static_cast<int>(order.fine.level), place.x, place.y, place.z };
   std::shared_ptr<KnownBlock> known;
   {
     const std::lock_guard<std::mutex> lock(this->BlocksLock);
@@ -360,7 +353,7 @@ std::shared_ptr<const BrickLoader::Block> BrickLoader::blockAt(
     const auto entry = this->Known.find(key);
     if (entry != this->Known.end() && entry->second == known) // it was not forgotten meanwhile
     {
-      known->bytes = static_cast<std::int64_t>(known->block.numbers.bytes());
+      known->bytes = bytesOf(known->block.numbers);
       this->BlockBytes += known->bytes;
     }
   }
@@ -408,10 +401,24 @@ struct Copied // the voxels that a slot has of a block
   glm::ivec3 size;
 };
 
-// Beyond the volume its outermost voxels are repeated, as a texture does.
-template <typename T>
-void copyBlock(const Copied& copied, const std::vector<T>& from, std::vector<T>& to)
+// Numbers of all components, as many as a slot has voxels.
+vtkSmartPointer<vtkDataArray> slotLike(vtkDataArray* numbers)
 {
+  constexpr vtkIdType SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
+  auto slot = vtkSmartPointer<vtkDataArray>::Take(numbers->NewInstance());
+  slot->SetNumberOfComponents(numbers->GetNumberOfComponents());
+  slot->SetNumberOfTuples(SlotVoxels);
+  return slot;
+}
+
+// Beyond the volume its outermost voxels are repeated, as a texture does.
+void copyBlock(const Copied& copied, vtkDataArray* from, vtkDataArray* to)
+{
+  const std::size_t bytes =
+    static_cast<std::size_t>(from->GetDataTypeSize()) * from->GetNumberOfComponents();
+  const auto* firstFrom = static_cast<const char*>(from->GetVoidPointer(0));
+  auto* firstTo = static_cast<char*>(to->GetVoidPointer(0));
+
   std::array<glm::ivec2, 3> parts;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -425,12 +432,21 @@ void copyBlock(const Copied& copied, const std::vector<T>& from, std::vector<T>&
   {
     for (int y = parts[1].x; y < parts[1].y; ++y)
     {
-      const T* row = &from[static_cast<std::size_t>(within(z, 2) * copied.size.y + within(y, 1)) *
-        copied.size.x];
-      T* out = &to[static_cast<std::size_t>(z * SlotSideVoxels + y) * SlotSideVoxels];
-      for (int x = parts[0].x; x < parts[0].y; ++x)
+      const char* row = firstFrom +
+        bytes * static_cast<std::size_t>(within(z, 2) * copied.size.y + within(y, 1)) *
+          copied.size.x;
+      char* out =
+        firstTo + bytes * static_cast<std::size_t>(z * SlotSideVoxels + y) * SlotSideVoxels;
+      for (int x = parts[0].x; x < parts[0].y;)
       {
-        out[x] = row[within(x, 0)];
+        // A run of voxels that are not repeated, or one that is.
+        int end = x + 1;
+        while (end < parts[0].y && within(end, 0) == within(x, 0) + end - x)
+        {
+          ++end;
+        }
+        std::memcpy(out + bytes * x, row + bytes * within(x, 0), bytes * (end - x));
+        x = end;
       }
     }
   }
@@ -439,29 +455,22 @@ void copyBlock(const Copied& copied, const std::vector<T>& from, std::vector<T>&
 
 void BrickLoader::read(FinerLevels& levels, const BrickOrder& order, ReadBrick& read)
 {
-  constexpr std::size_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVoxels;
   const int side = levels.blockSide(order.fine.level);
   const glm::ivec3 place = order.fine.positionOf(read.brick);
   const glm::ivec3 low = place * StreamedSide - SlotBorder;
   const glm::ivec3 last = order.fine.voxels - 1;
+  vtkSmartPointer<vtkDataArray> slot;
   forEachIndex(glm::max(low, glm::ivec3(0)) / side, glm::min(low + SlotSideVoxels - 1, last) / side,
     [&](const glm::ivec3& at) {
       const std::shared_ptr<const Block> found = this->blockAt(levels, order, at);
       const Block& block = *found;
       const Copied copied{ low, order.fine.voxels, block.first, block.size };
-      read.numbers.floats.resize(block.numbers.floats.empty() ? 0 : SlotVoxels);
-      read.numbers.sixteenBits.resize(block.numbers.sixteenBits.empty() ? 0 : SlotVoxels);
-      if (block.numbers.floats.empty())
-      {
-        copyBlock(copied, block.numbers.sixteenBits, read.numbers.sixteenBits);
-      }
-      else
-      {
-        copyBlock(copied, block.numbers.floats, read.numbers.floats);
-      }
+      slot = slot ? slot : slotLike(block.numbers);
+      copyBlock(copied, block.numbers, slot);
       read.remark = read.remark.empty() ? block.remark : read.remark;
     });
   this->forgetOldBlocks();
+  read.numbers = ScalarTexture::storedNumbers(slot, glm::ivec3(SlotSideVoxels), order.component);
   read.ranges = coveredRanges(read.numbers, place, order);
 }
 }

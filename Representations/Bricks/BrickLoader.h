@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Reads bricks of finer levels on threads of their own. Only a picture that is saved waits for them.
+/// Reads bricks of finer levels on threads of their own. Only a picture that is saved waits for
+/// them.
 #ifndef BrainShift_BrickLoader_h
 #define BrainShift_BrickLoader_h
 
@@ -110,7 +111,7 @@ public:
 private:
   struct Block // of voxels, as the file packs them
   {
-    StoredNumbers numbers;
+    vtkSmartPointer<vtkDataArray> numbers; // of the file's type
     glm::ivec3 first{ 0 };
     glm::ivec3 size{ 0 };
     std::string remark;
@@ -123,7 +124,7 @@ private:
     std::int64_t bytes = 0;
     std::int64_t used = 0;
   };
-  using BlockKey = std::array<int, 5>; // level, component, place
+  using BlockKey = std::array<int, 4>; // level, place
   using Blocks = std::map<BlockKey, std::shared_ptr<KnownBlock>>;
 
   void run(std::size_t thread);

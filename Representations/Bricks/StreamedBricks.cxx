@@ -28,7 +28,6 @@ constexpr std::int64_t SlotVoxels = SlotSideVoxels * SlotSideVoxels * SlotSideVo
 constexpr double UsualLimitMiB = 1024.0; // where the user sets none
 constexpr double LeastMiB = 1.0;
 constexpr int LeastSlots = 8;
-constexpr std::size_t BricksInBatch = 512;      // read side by side, whichever is more urgent
 constexpr double MostBricks = 16777216.0;       // rays write their numbers as floats
 constexpr double StaysFiner = 1.3;              // times a pixel
 constexpr double MoreRoom = 1.5;                // times the former limit
@@ -507,8 +506,8 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
 
 namespace
 {
-// The place of a brick along a Z-order curve (Morton, A computer oriented geodetic data base, 1966),
-// which leads through each block of 2, 4, 8 ... bricks a side before the next.
+// The place of a brick along a Z-order curve (Morton, A computer oriented geodetic data base,
+// 1966), which leads through each block of 2, 4, 8 ... bricks a side before the next.
 std::uint64_t alongCurve(const glm::ivec3& position)
 {
   constexpr int Bits = 20;
@@ -522,10 +521,37 @@ std::uint64_t alongCurve(const glm::ivec3& position)
   }
   return place;
 }
+
+// Bricks in the order in which they are read: those of one cube together, because they share chunks
+// of the file. `asked`: with minus the number of pixels that ask for each; the cube of most is
+// first.
+std::vector<int> inCubes(const FineGrid& fine, const std::vector<std::pair<int, int>>& asked)
+{
+  constexpr int CubeBits = 9; // of a place: eight bricks a side
+  std::map<std::uint64_t, int> ofCubes;
+  std::vector<std::pair<std::uint64_t, int>> places;
+  places.reserve(asked.size());
+  for (const auto& [pixels, brick] : asked)
+  {
+    places.emplace_back(alongCurve(fine.positionOf(brick)), brick);
+    ofCubes[places.back().first >> CubeBits] += pixels;
+  }
+  std::sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+    const int pixelsOfA = ofCubes[a.first >> CubeBits];
+    const int pixelsOfB = ofCubes[b.first >> CubeBits];
+    return pixelsOfA != pixelsOfB ? pixelsOfA < pixelsOfB : a.first < b.first;
+  });
+  std::vector<int> bricks;
+  bricks.reserve(places.size());
+  for (const auto& [place, brick] : places)
+  {
+    bricks.push_back(brick);
+  }
+  return bricks;
+}
 }
 
-// Those that can come: the bricks of most pixels first, in batches of neighbours, which share
-// chunks of the file.
+// Those that can come, if there is no room for all: the bricks of most pixels.
 std::vector<int> StreamedBricks::inOrder(const std::map<int, int>& pixels)
 {
   const Clock::time_point now = Clock::now();
@@ -550,22 +576,7 @@ std::vector<int> StreamedBricks::inOrder(const std::map<int, int>& pixels)
   const std::size_t room = this->Table.room(this->View);
   this->Full[this->Eye] = sorted.size() > room;
   sorted.resize(std::min(sorted.size(), room));
-  std::vector<int> bricks;
-  bricks.reserve(sorted.size());
-  for (const auto& [count, brick] : sorted)
-  {
-    bricks.push_back(brick);
-  }
-  const auto isBefore = [this](int a, int b) {
-    return alongCurve(this->Order.fine.positionOf(a)) < alongCurve(this->Order.fine.positionOf(b));
-  };
-  for (std::size_t first = 0; first < bricks.size(); first += BricksInBatch)
-  {
-    const std::size_t end = std::min(first + BricksInBatch, bricks.size());
-    std::sort(bricks.begin() + static_cast<std::ptrdiff_t>(first),
-      bricks.begin() + static_cast<std::ptrdiff_t>(end), isBefore);
-  }
-  return bricks;
+  return inCubes(this->Order.fine, sorted);
 }
 
 // Each eye has rays of its own.

@@ -8,7 +8,8 @@ from tree import without_comments
 
 #: Files that may call the system, each with a branch for other systems but the last: there is no
 #: tracker on Windows yet.
-MAY_CALL = ("Common/HostMemory.cxx", "Formats/DICOM/DerivedHeader.cxx",
+MAY_CALL = ("Common/HostMemory.cxx", "Common/ThreadPriority.cxx",
+            "Formats/DICOM/DerivedHeader.cxx",
             "Formats/Files/WholeFile.cxx", "Tracking/Connection.cxx")
 #: The one header of marks that compilers spell differently.
 MARKS = "Common/Export.h"
