@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that a brick that was read and not taken is not read again, and that bricks of another
-// order are dropped.
+// Proves that a brick that was read and not taken is not read again, that bricks of another order are
+// dropped, and that threads unpack no block twice and give bricks in the order in which these were
+// wanted.
 #include "Representations/Bricks/BrickLoader.h"
 #include "Formats/Volumes/VolumeFile.h"
 
@@ -12,13 +13,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <thread>
 
 using namespace brainshift;
 
 namespace
 {
-constexpr int Side = 64; // voxels: eight bricks
+constexpr int Side = 64; // voxels: eight bricks, each of which needs voxels of all eight blocks
+constexpr std::size_t Blocks = 8;
+std::atomic<std::size_t> loads{ 0 };
 
 class ZerosFile : public VolumeFile
 {
@@ -32,6 +37,10 @@ public:
   }
   void load(std::size_t, const Progress&, StoredVoxels& voxels) override
   {
+    if (++loads % 2 == 1) // so that another thread is done first
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
     voxels.image = vtkSmartPointer<vtkImageData>::New();
     voxels.image->SetDimensions(Side, Side, Side);
     voxels.image->AllocateScalars(VTK_SHORT, 1);
@@ -117,4 +126,22 @@ TEST_F(BrickLoaderTest, DropsBricksOfAnotherOrder)
   this->Loader.order(other, {});
   EXPECT_EQ(this->Loader.countRead(), 0);
   EXPECT_TRUE(this->Loader.take(100).empty());
+}
+
+TEST_F(BrickLoaderTest, ThreadsShareBlocksAndKeepTheOrder)
+{
+  this->waitUntilDone();
+  loads = 0;
+  const std::vector<int> wanted{ 7, 0, 6, 1, 5, 2, 4, 3 };
+  this->Loader.order(order(), wanted);
+  std::vector<int> bricks;
+  while (bricks.size() < wanted.size())
+  {
+    for (const ReadBrick& read : this->Loader.take(1))
+    {
+      bricks.push_back(read.brick);
+    }
+  }
+  EXPECT_EQ(bricks, wanted);
+  EXPECT_EQ(loads, Blocks);
 }
