@@ -63,8 +63,8 @@ StopReading::StopReading(QObject* parent)
         button, &QAbstractButton::pressed, this, &StopReading::stop, Qt::UniqueConnection);
     }
   });
-#if PARAVIEW_VERSION_MAJOR < 6 || (PARAVIEW_VERSION_MAJOR == 6 && PARAVIEW_VERSION_MINOR < 1)
   this->connect(this->Manager, &pqProgressManager::progress, this, &StopReading::handlePress);
+#if PARAVIEW_VERSION_MAJOR < 6 || (PARAVIEW_VERSION_MAJOR == 6 && PARAVIEW_VERSION_MINOR < 1)
   this->connect(this->Manager, &pqProgressManager::progressEndEvent, this,
     [this] { this->Manager->setEnableAbort(false); });
 #endif
