@@ -128,12 +128,15 @@ def test_landmarks_lie_nearer_than_those_of_elastix():
     case.cavity.UpdatePipeline()
     truth = brainshift.deformed_from_rest(case.sag, case.landmarks)
     values, *place = voxels(case.after_surgery)
-    means = []
+    means, by_others = [], {}
     for mode, similarity in (("inverted", "auto"), ("bias noise", "auto"),
                              ("same", "same contrast")):
         reference = with_contrast(values, mode)
         ours, our_seconds = by_refine(case, reference, *place, similarity)
-        theirs, their_seconds = by_elastix(case, reference, *place, mode)
+        seen = "same" if mode == "inverted" else mode  # mutual information sees no inversion
+        if seen not in by_others:
+            by_others[seen] = by_elastix(case, reference, *place, mode)
+        theirs, their_seconds = by_others[seen]
         ours, theirs = distances(ours, truth), distances(theirs, truth)
         print(f"{mode}: refine {ours[0]:.3f} / {ours[1]:.3f} mm in {our_seconds[0]:.1f} s "
               f"({our_seconds[1]:.1f} s checks), elastix "
