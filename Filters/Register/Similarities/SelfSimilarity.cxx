@@ -430,6 +430,7 @@ constexpr double Converged = 1e-3; // a smaller gain comes from the noise
 // narrow: it is a factor on the other.
 constexpr double CoarseStiffness = 1.5;
 constexpr double LastStiffness = 0.5;
+constexpr double LastMm = 1.45;
 }
 
 namespace
@@ -469,7 +470,7 @@ Similarity describeSelfSimilarity()
     "For volumes of any contrast. Compares self-similarity (SSC), and at the end how well a "
     "parabola of the volume's values explains the reference in small windows.";
   result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &ThinSelfSimilarity, 2.0 },
-    { &QuadraticFit, 1.5, 1.0, false, true, 1, LastStiffness } };
+    { &QuadraticFit, LastMm, 1.0, false, true, 1, LastStiffness } };
   result.plan.stiffness = CoarseStiffness;
   result.plan.converged = Converged;
   result.plan.check.halves = { &SelfSimilarityMetric, 4.0, 1.0, true };

@@ -213,7 +213,7 @@ def a_pin_holds():
     pinned = pins()[0, :3]
     assert numpy.linalg.norm(moved) > 1.5, moved  # or the pin would have nothing to hold
     assert numpy.linalg.norm(drawn(pinned) - pinned) < 1, drawn(pinned) - pinned
-    assert window.shown(simple.GetActiveView(), "Held") == 1
+    window.until(lambda: window.shown(simple.GetActiveView(), "Held") == 1, "the pin is drawn")
     at = window.pixel_of(simple.GetActiveView(), drawn(pinned))
     hand.press(at, hand.SHIFT)
     hand.release(at, hand.SHIFT)
