@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The cross beside the progress bar, while one of our readers reads on this machine, or a large
-/// volume is written: it stops that. ParaView enables the cross from 6.1 on alone. There a press does
-/// not reach it while a writer is at work, and would not stop one.
+/// volume is written: it stops that. ParaView enables the cross from 6.1 on alone. There a press
+/// does not reach it while a writer is at work, and would not stop one.
 #ifndef BrainShift_StopReading_h
 #define BrainShift_StopReading_h
 
