@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that a brick that was read and not taken is not read again, that bricks of another order are
-// dropped, and that threads unpack no block twice and give bricks in the order in which these were
-// wanted.
+// Proves that a brick that was read and not taken is not read again, that bricks of another order
+// are dropped, and that threads unpack no block twice and give bricks in the order in which these
+// were wanted.
 #include "Representations/Bricks/BrickLoader.h"
 #include "Formats/Volumes/VolumeFile.h"
 
