@@ -38,36 +38,36 @@ std::vector<vtkVolumeFileReader*> readersAtWork()
   return readers;
 }
 
-// Null before the window has its status bar.
-QAbstractButton* cross()
-{
-  const QWidget* window = pqCoreUtilities::mainWidget();
-  return window ? window->findChild<QAbstractButton*>("AbortButton") : nullptr;
-}
-
-bool isOnCross(const QMouseEvent& event)
-{
-  const QAbstractButton* button = cross();
-  return button && button->rect().contains(button->mapFromGlobal(event.globalPosition().toPoint()));
-}
 }
 
 StopReading::StopReading(QObject* parent)
   : QObject(parent)
   , Manager(pqApplicationCore::instance()->getProgressManager())
 {
-  this->connect(this->Manager, &pqProgressManager::progressStartEvent, this, [this] {
-    if (const QAbstractButton* button = cross())
-    {
-      this->connect(
-        button, &QAbstractButton::pressed, this, &StopReading::stop, Qt::UniqueConnection);
-    }
-  });
+  this->connect(
+    this->Manager, &pqProgressManager::progressStartEvent, this, &StopReading::findCross);
   this->connect(this->Manager, &pqProgressManager::progress, this, &StopReading::handlePress);
 #if PARAVIEW_VERSION_MAJOR < 6 || (PARAVIEW_VERSION_MAJOR == 6 && PARAVIEW_VERSION_MINOR < 1)
   this->connect(this->Manager, &pqProgressManager::progressEndEvent, this,
     [this] { this->Manager->setEnableAbort(false); });
 #endif
+}
+
+// Once: each picture of a drag makes progress, too. The window may not have its status bar yet.
+void StopReading::findCross()
+{
+  const QWidget* window = this->Cross ? nullptr : pqCoreUtilities::mainWidget();
+  this->Cross = window ? window->findChild<QAbstractButton*>("AbortButton") : this->Cross.data();
+  if (window && this->Cross)
+  {
+    this->connect(this->Cross, &QAbstractButton::pressed, this, &StopReading::stop);
+  }
+}
+
+bool StopReading::isOnCross(const QMouseEvent& event) const
+{
+  return this->Cross &&
+    this->Cross->rect().contains(this->Cross->mapFromGlobal(event.globalPosition().toPoint()));
 }
 
 void StopReading::handlePress()
@@ -108,7 +108,7 @@ bool StopReading::eventFilter(QObject*, QEvent* event)
     case QEvent::MouseButtonPress:
     case QEvent::MouseButtonRelease:
     case QEvent::MouseButtonDblClick:
-      return !isOnCross(*static_cast<QMouseEvent*>(event));
+      return !this->isOnCross(*static_cast<QMouseEvent*>(event));
     case QEvent::Timer:
     case QEvent::Wheel:
     case QEvent::MouseMove:

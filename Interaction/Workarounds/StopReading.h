@@ -7,9 +7,12 @@
 #define BrainShift_StopReading_h
 
 #include <QObject>
+#include <QPointer>
 
 class pqProgressManager;
+class QAbstractButton;
 class QEvent;
+class QMouseEvent;
 
 namespace brainshift
 {
@@ -24,10 +27,13 @@ public:
   bool eventFilter(QObject* object, QEvent* event) override;
 
 private:
+  void findCross();
+  bool isOnCross(const QMouseEvent& event) const;
   void handlePress();
   void stop() const;
 
   pqProgressManager* Manager;
+  QPointer<QAbstractButton> Cross;
   bool IsHandling = false;
 };
 }

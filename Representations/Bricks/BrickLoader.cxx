@@ -288,6 +288,7 @@ void BrickLoader::open()
   {
     this->Grids = this->Levels.front()->grids();
   }
+  this->Wake.notify_all();
 }
 
 void BrickLoader::run(std::size_t thread)
