@@ -10,6 +10,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@
 
 namespace brainshift
 {
+/** A number that nobody knows. */
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
 #ifdef __cpp_lib_to_chars
 using std::from_chars;
 #else

@@ -20,7 +20,7 @@ using namespace brainshift;
 namespace
 {
 constexpr int ReferencePort = 1;
-constexpr int CavityPort = 2;
+constexpr int ComparedCavityPort = 2;
 constexpr int Ports = 3;
 
 // The scalars of the reference.
@@ -67,7 +67,7 @@ void vtkCompareVolumes::SetReferenceConnection(vtkAlgorithmOutput* reference)
 
 void vtkCompareVolumes::SetCavityConnection(vtkAlgorithmOutput* cavity)
 {
-  this->SetInputConnection(CavityPort, cavity);
+  this->SetInputConnection(ComparedCavityPort, cavity);
 }
 
 void vtkCompareVolumes::AddCavityLabel(int label)
@@ -85,7 +85,7 @@ void vtkCompareVolumes::ClearCavityLabels()
 int vtkCompareVolumes::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port == CavityPort);
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port == ComparedCavityPort);
   return 1;
 }
 
@@ -93,7 +93,7 @@ int vtkCompareVolumes::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
   // The volume passes through in the pieces that are asked for.
-  for (const int port : { ReferencePort, CavityPort })
+  for (const int port : { ReferencePort, ComparedCavityPort })
   {
     updateWholeExtent(inputs[port]->GetInformationObject(0));
   }
@@ -112,8 +112,9 @@ int vtkCompareVolumes::RequestData(
   requirePosition(gridOf(output), "The volume's ");
   requirePosition(grid, "The reference's ");
   vtkDataArray* scalars = referenceScalars(image);
-  PlacedVoxels cavity = this->Internal->Cavity.find(vtkImageData::GetData(inputs[CavityPort]),
-    this->CavityLabels, grid, { "cavity", "reference", "CavityLabels" });
+  PlacedVoxels cavity =
+    this->Internal->Cavity.find(vtkImageData::GetData(inputs[ComparedCavityPort]),
+      this->CavityLabels, grid, { "cavity", "reference", "CavityLabels" });
   const double* r = this->ReferenceRotation;
   const double* t = this->ReferenceTranslation;
   const RigidMotion motion{ middleOf(grid), { r[0], r[1], r[2] }, { t[0], t[1], t[2] } };

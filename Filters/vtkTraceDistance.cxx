@@ -38,8 +38,8 @@ namespace
 {
 constexpr int DeformationPort = 1;
 constexpr int SegmentationPort = 2;
-constexpr int CavityPort = 3;
-constexpr vtkIdType PointsAtLeast = 32; // for a thread: about 0.1 ms
+constexpr int TraceCavityPort = 3;
+constexpr vtkIdType TracesAtLeast = 32; // for a thread: about 0.1 ms
 constexpr const char* NotRun = "The distances have not been measured";
 
 // The numbers of all processes, on each of them.
@@ -165,7 +165,7 @@ void vtkTraceDistance::SetSegmentationConnection(vtkAlgorithmOutput* segmentatio
 
 void vtkTraceDistance::SetCavityConnection(vtkAlgorithmOutput* mask)
 {
-  this->SetInputConnection(CavityPort, mask);
+  this->SetInputConnection(TraceCavityPort, mask);
 }
 
 void vtkTraceDistance::AddCavityLabel(int label)
@@ -248,7 +248,7 @@ int vtkTraceDistance::RequestUpdateExtent(
   // If something upstream fails, RequestData is never called; if memory runs out, this stays.
   this->Internal->forget(NotRun);
   // Any point may be nearest to any part of the cortex.
-  for (int port = DeformationPort; port <= CavityPort; ++port)
+  for (int port = DeformationPort; port <= TraceCavityPort; ++port)
   {
     updateWholeExtent(inputs[port]->GetInformationObject(0));
   }
@@ -293,7 +293,7 @@ void vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
   const Lattice lattice = effectiveLattice(deformation);
   state.Map.emplace(lattice, deformation.inverse);
   state.Cavity = {};
-  state.Cavity = state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]),
+  state.Cavity = state.CavityInput.find(vtkImageData::GetData(inputs[TraceCavityPort]),
     this->CavityLabels, gridOf(volume), { "cavity", "volume", "CavityLabels" });
   state.ReferencesCavity = readReference(volume).cavity;
   std::function<bool(const glm::dvec3&)> isRemoved;
@@ -327,7 +327,7 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
                                    : std::numeric_limits<double>::quiet_NaN();
   };
   const std::vector<vtkIdType> order = state.byTriangle(before, count);
-  return forPortions({ this }, count, PointsAtLeast, [&](vtkIdType first, vtkIdType last) {
+  return forPortions({ this }, count, TracesAtLeast, [&](vtkIdType first, vtkIdType last) {
     int previous = -1; // the first time: a pointer moves little
     for (vtkIdType step = first; step < last; ++step)
     {

@@ -30,7 +30,7 @@ brainshiftGuardRequestsMacro(vtkTransformPoints);
 
 namespace
 {
-constexpr vtkIdType PointsAtLeast = 256; // for a thread: about 0.1 ms
+constexpr vtkIdType MappedAtLeast = 256; // for a thread: about 0.1 ms
 constexpr double StepMm = 0.1;           // between the points that a derivative is taken from
 
 // `missesMm`: of each point.
@@ -123,7 +123,7 @@ int vtkTransformPoints::RequestData(
       }
     }
   };
-  if (!forPortions({ this }, count, PointsAtLeast, move))
+  if (!forPortions({ this }, count, MappedAtLeast, move))
   {
     output->Initialize();
   }

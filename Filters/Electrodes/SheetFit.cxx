@@ -10,13 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace brainshift
 {
 namespace
 {
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int PerPlace = 5;            // two numbers at rest, three bent
 constexpr int AtRest = 2;              // of these
 constexpr int Rounds = 4;              // of weights

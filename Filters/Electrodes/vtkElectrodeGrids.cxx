@@ -23,7 +23,6 @@
 #include "vtkPolyData.h"
 
 #include <cmath>
-#include <limits>
 
 using namespace brainshift;
 
@@ -31,7 +30,6 @@ namespace
 {
 constexpr int CortexPort = 1;
 constexpr int OpeningPort = 2;
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t MostNamed = 6;       // contacts in a sentence
 constexpr std::size_t MostContacts = 5000; // of all electrodes: more are no contacts
 constexpr double DeepestOnCortexMm = 15.0; // below it at rest: brains sink less

@@ -19,7 +19,6 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <limits>
 #include <regex>
 #include <sstream>
 
@@ -34,7 +33,6 @@ constexpr double BoxTolerance = 1e-6; // of a cell
 // Single precision rounds each weight. The errors of many weights add up as the root of their
 // number.
 constexpr double WeightTolerance = 1e-6;
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t PointsAtLeast = 256; // for a thread: about 0.1 ms
 
 // The numbers of the array, in this order.

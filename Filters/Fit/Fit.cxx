@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/Fit.h"
 
+#include "Common/Numbers.h"
 #include "Common/Parallel.h"
 #include "Filters/Fit/TraceRows.h"
 
@@ -19,7 +20,6 @@ constexpr double MotionUnsettled = 1e-6;      // mm and rad: more than rounding 
 constexpr double LeastSpreadMm = 1.0;         // around a line, to know the rotation about it
 constexpr double PriorPairs = 8.0;            // weight of the settings against the pairs
 constexpr double FarthestDeviationMm = 100.0; // of a pair that is left out: beyond it is unknown
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 // Adds three rows that measure all of a displacement. Returns the number of the first.
 std::size_t addVector(

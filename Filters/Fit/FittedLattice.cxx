@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/FittedLattice.h"
 
+#include "Common/Numbers.h"
 #include "Common/Parallel.h"
 #include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Deformation/Kernels.h"
 
 #include <iterator>
-#include <limits>
 
 namespace brainshift
 {
 namespace
 {
 constexpr std::int64_t TracesAtLeast = 32; // for a thread: about 0.1 ms
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 // World positions (mm) of all points of a grid, x fastest.
 std::vector<glm::dvec3> positionsOf(const Grid& grid)

@@ -23,7 +23,6 @@
 #include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <limits>
 #include <utility>
 
 using namespace brainshift;
@@ -39,7 +38,6 @@ constexpr int CavityPort = 7;
 constexpr int OpeningPort = 8;
 constexpr int Ports = 9;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t FewestPairs = 3; // fewer are no news to a hand that is picking them
 constexpr double FarTraceMm = 25.0;    // half of the traces: more than brains shift
 constexpr std::size_t MostTracesToDoubt = 500;
@@ -52,7 +50,7 @@ bool isOfPoints(int port)
 }
 
 // Joins sentences by full stops; the last one has none.
-std::string joined(const std::vector<std::string>& sentences)
+std::string joinedSentences(const std::vector<std::string>& sentences)
 {
   std::string text;
   for (const std::string& sentence : sentences)
@@ -103,7 +101,7 @@ std::string warningAbout(const FittedLattice& fitted)
     sentences.emplace_back("The fold guard increased the standard deviations of the measurements, "
                            "so that no tissue folds");
   }
-  return joined(sentences);
+  return joinedSentences(sentences);
 }
 }
 
@@ -152,10 +150,11 @@ struct vtkFitDeformation::State
   // What to know about how the measurements lie.
   std::string doubts()
   {
-    const std::string places = joined(doubtsAbout(this->Measured, this->Names, this->Volume));
+    const std::string places =
+      joinedSentences(doubtsAbout(this->Measured, this->Names, this->Volume));
     const bool isSaid = places.find("traced points") != std::string::npos;
     const bool isOpen = !isSaid && !this->Measured.base; // which moves the cortex
-    return joined(
+    return joinedSentences(
       { places, isOpen ? doubtAboutTraces(this->Measured.traces, this->surface()) : "" });
   }
 
@@ -163,7 +162,7 @@ struct vtkFitDeformation::State
   std::string warning() const
   {
     const bool isInCavity = !this->TraceResiduals.empty() && this->TraceNumbers.empty();
-    return joined({ this->Unmatched.empty() ? "" : "Without a partner: " + this->Unmatched,
+    return joinedSentences({ this->Unmatched.empty() ? "" : "Without a partner: " + this->Unmatched,
       this->Repeated.empty()
         ? ""
         : "Paired in the order of the lists, for the name occurs more than once: " + this->Repeated,
@@ -482,10 +481,10 @@ int vtkFitDeformation::RequestData(
   const std::size_t listed = this->Landmarks->Numbers.size() / Packed<PointPair>::Numbers;
   const bool isPicking =
     listed > 0 && listed < FewestPairs && listed == state.Measured.landmarks.size();
-  const std::string warning = joined(
+  const std::string warning = joinedSentences(
     { noEvidence, isPicking ? "" : doubts, this->DoubtsAboutSides(inputs), state.warning() });
   warnAnew(this, warning, state.WarnedOf); // it is repeated only after it was gone
-  state.Warning = isPicking ? joined({ warning, doubts }) : warning;
+  state.Warning = isPicking ? joinedSentences({ warning, doubts }) : warning;
   output->Crop(
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   return 1;

@@ -143,7 +143,7 @@ namespace
 {
 constexpr int Pieces = 8;                 // of the samples; each has a histogram of its own
 constexpr std::size_t FewSamples = 30000; // not worth a second thread
-constexpr double Converged = 1e-4;        // fraction of the information that a round must gain
+constexpr double LeastGain = 1e-4;        // fraction of the information that a round must gain
 constexpr double FarthestStartMm = 30.0;
 constexpr double FarthestStartDegrees = 30.0;
 
@@ -433,7 +433,7 @@ void Alignment::endRound()
 {
   const double gain = this->RoundStartLoss - this->Loss;
   const bool isDone =
-    gain <= Converged * std::abs(this->Loss) || ++this->Rounds >= this->mostRoundsHere();
+    gain <= LeastGain * std::abs(this->Loss) || ++this->Rounds >= this->mostRoundsHere();
   Parameters displacement{};
   double length = 0.0;
   for (std::size_t i = 0; i < displacement.size(); ++i)

@@ -27,6 +27,12 @@ constexpr int ForceNumbers = 9;
 /** The force on each control point, summed over the samples. */
 using ControlForces = std::vector<float>; // ForceNumbers for each, x fastest
 
+/** How much the samples tell of the position of a control point, from its force. */
+inline double weightOf(const float* force)
+{
+  return static_cast<double>(force[3]) + force[4] + force[5];
+}
+
 /** The four control points around a position along one axis, and their weights. */
 struct Taps
 {

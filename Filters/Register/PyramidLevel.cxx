@@ -225,8 +225,8 @@ constexpr double MostSamples = 0.95e6;
 // A level that is not finer than the former one by this factor in volume adds nothing.
 constexpr double FinerVolume = 0.8;
 
-constexpr double LeastTissue = 0.25; // fraction of a volume that is taken for tissue
-constexpr float Air = 0.05f;         // fraction of the range of values
+constexpr double LeastShare = 0.25;   // fraction of a volume that is taken for tissue
+constexpr float BrightestAir = 0.05f; // fraction of the range of values
 
 // Between the middles of a fan and of the tissue; less tells no direction. On two heads it is 43 mm
 // or more.
@@ -268,13 +268,13 @@ glm::dvec3 middleOf(const Mask& mask)
 double tissueFractionOf(const std::vector<float>& values)
 {
   const Range range = rangeOf(values);
-  const auto isTissue = [&](float value) { return range.fraction(value) > Air; };
+  const auto isTissue = [&](float value) { return range.fraction(value) > BrightestAir; };
   const double count = static_cast<double>(std::count_if(values.begin(), values.end(), isTissue));
-  return std::max(LeastTissue, count / std::max<std::size_t>(1, values.size()));
+  return std::max(LeastShare, count / std::max<std::size_t>(1, values.size()));
 }
 
 // The tissue of a volume, on blocks of about 4 mm.
-Mask tissueOf(const Volume& volume)
+Mask coarseTissue(const Volume& volume)
 {
   constexpr double CoarseMm = 4.0;
   const glm::ivec3 every =
@@ -298,7 +298,7 @@ Mask tissueOf(const Volume& volume)
   const Range range = rangeOf(some);
   for (const float value : some)
   {
-    tissue.inside.push_back(range.fraction(value) > Air ? 1 : 0);
+    tissue.inside.push_back(range.fraction(value) > BrightestAir ? 1 : 0);
   }
   return tissue;
 }
@@ -360,7 +360,7 @@ void ComparedRegion::find(const RegisteredPair& pair, const Grid& lattice)
   this->BoxMm3 = boxVolume(lattice);
   this->FanMm3 = std::min(pointVolume(this->Fan.grid) * voxels, this->BoxMm3);
   this->Middle = middleOf(this->Fan);
-  const glm::dvec3 inwards = middleOf(tissueOf(pair.rest)) - this->Middle;
+  const glm::dvec3 inwards = middleOf(coarseTissue(pair.rest)) - this->Middle;
   const double away = glm::length(inwards);
   this->Beam = away > LeastInwardsMm ? inwards / away : glm::dvec3(0.0);
 }
@@ -374,7 +374,7 @@ double ComparedRegion::spacingMm(const RefinementLevel& level) const
 
 double ComparedRegion::finestSpacingMm(const RefinementLevel& level, const Grid& rest)
 {
-  return spacingOf(level, rest, LeastTissue);
+  return spacingOf(level, rest, LeastShare);
 }
 
 Grid ComparedRegion::grid(const RefinementLevel& level) const

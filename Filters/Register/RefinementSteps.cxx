@@ -190,11 +190,6 @@ constexpr int Parameters = 6; // a translation along three axes, then a rotation
 // Of the Hessian's diagonal: a rotation without any force against it stays small.
 constexpr double Damping = 1e-3;
 
-double weightOf(const float* force)
-{
-  return static_cast<double>(force[3]) + force[4] + force[5];
-}
-
 glm::dmat3 hessianOf(const float* force)
 {
   return { force[3], force[6], force[7], force[6], force[4], force[8], force[7], force[8],

@@ -18,12 +18,6 @@ constexpr double LeastSamples = 800.0; // of a run over all of the compared part
 constexpr double LeastOfHalf = 200.0;  // samples
 constexpr double Finer = 0.5;          // times the spacing, if there are too few samples
 
-// How much samples tell the position of a control point, from its force.
-double weightOf(const float* force)
-{
-  return static_cast<double>(force[3]) + force[4] + force[5];
-}
-
 // A motion by the spacing of the samples changes the cost by more than this, or they tell nothing.
 // Flat tissue has the rounding of its smoothing, which is far below.
 constexpr double LeastChange = 1e-6;

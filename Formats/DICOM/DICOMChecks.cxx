@@ -11,9 +11,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr DICOMTag SharedGroups = 0x52009229;
-constexpr DICOMTag FrameGroups = 0x52009230;
-
 bool has(const DICOMDataSet& set, DICOMTag tag)
 {
   return set.elements.count(tag) > 0;

@@ -18,8 +18,6 @@ using Notes = std::vector<std::string>;
 
 constexpr double LargestCosineOfAxes = 1e-3; // headers with few digits stay below
 constexpr double LargestLengthError = 0.01;  // of a direction
-constexpr DICOMTag SharedGroups = 0x52009229;
-constexpr DICOMTag FrameGroups = 0x52009230;
 constexpr DICOMTag RealWorldValues = 0x00409096;
 constexpr const char* ParametricMapStorage = "1.2.840.10008.5.1.4.1.1.30";
 constexpr DICOMName PixelMeasures{ 0x00289110, "PixelMeasuresSequence" };

@@ -9,6 +9,12 @@
 
 namespace brainshift
 {
+/** What holds for all frames of a file (Shared Functional Groups Sequence). */
+constexpr DICOMTag SharedGroups = 0x52009229;
+
+/** What holds for each of its frames (Per-Frame Functional Groups Sequence). */
+constexpr DICOMTag FrameGroups = 0x52009230;
+
 /** Whether the frames of a file are described one by one (enhanced multi-frame files). */
 bool describesFrames(const DICOMDataSet& set);
 

@@ -247,7 +247,7 @@ DICOMPlaces sortedByPlace(
   return sorted;
 }
 
-constexpr double MostSlices = 65535.0;     // that resampling may make
+constexpr double MostResampled = 65535.0;  // that resampling may make
 constexpr double FarthestDriftMm = 5000.0; // of slices that resampling may make room for
 constexpr double MissingSteps = 1.5;       // a gap of so many steps lacks a slice
 constexpr double SmallestError = 0.5;      // voxels; from here on slices are interpolated
@@ -455,7 +455,7 @@ void placeSlices(DICOMStack& stack, const DICOMFile& file, SliceResampling resam
   const bool isUneven = shiftMm > LargestUnreportedShiftMm;
   const bool isTilted = driftMm > std::max(LargestUnreportedShiftMm, 1e-4 * heightMm);
   const double count = std::round(heightMm / uprightStep(steps, heightMm, usualMm)) + 1.0;
-  const bool isPossible = count >= 2.0 && count <= MostSlices && driftMm < FarthestDriftMm;
+  const bool isPossible = count >= 2.0 && count <= MostResampled && driftMm < FarthestDriftMm;
   const bool isWanted = resampling == SliceResampling::Always ||
     (resampling == SliceResampling::WhereNeeded &&
       errorOfEven(positions, first, usualMm) >= SmallestError);

@@ -18,7 +18,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr std::size_t LongestText = 16 << 20; // bytes
+constexpr std::size_t LongestSidecar = 16 << 20; // bytes
 constexpr const char* Ending = "_coordsystem.json";
 
 // The entities of a name, such as sub-01, without its last part.
@@ -175,7 +175,7 @@ std::optional<ElectrodeFrame> electrodeFrame(const std::string& tableName, Landm
       return true;
     };
     const nlohmann::json object =
-      nlohmann::json::parse(readPlainText(beside, LongestText), requireOnce, /*throws*/ false);
+      nlohmann::json::parse(readPlainText(beside, LongestSidecar), requireOnce, /*throws*/ false);
     throwIfAny(object.is_object() ? "" : "is not good JSON");
     electrodes.axes = axesIn(object, isOptodes, list);
     electrodes.mm = unitIn(object, isOptodes);

@@ -241,7 +241,7 @@ void vtkOMEZarrWriter::TakeVoxels(OutgoingVolume& volume)
   {
     volume.isLabelMap = this->Labels == 1;
   }
-  if (volume.isLabelMap && volume.type.kind == NumberType::Kind::Floating)
+  if (volume.isLabelMap && volume.type.kind == VoxelNumber::Kind::Floating)
   {
     throw brainshift::Problem(
       joined("The input is of the type ", volume.numbers->GetDataTypeAsString(),

@@ -125,7 +125,7 @@ void requireJPEG2000(const std::string& packed, const FrameShape& shape)
   }
 }
 
-constexpr const char* Damaged = "a JPEG 2000 frame is damaged: OpenJPEG cannot unpack it";
+constexpr const char* Damaged2000 = "a JPEG 2000 frame is damaged: OpenJPEG cannot unpack it";
 
 // What OpenJPEG reads instead of a file.
 struct Memory
@@ -228,19 +228,19 @@ UnpackedFrame unpackJPEG2000(const std::string& packed, const FrameShape& shape)
   const Image image(read, &opj_image_destroy);
   if (!isSetUp)
   {
-    throw Problem(Damaged);
+    throw Problem(Damaged2000);
   }
   requireShape(*image, shape);
   if (opj_decode(codec.get(), stream.get(), image.get()) != OPJ_TRUE)
   {
-    throw Problem(Damaged);
+    throw Problem(Damaged2000);
   }
   requireShape(*image, shape); // a palette may have changed it
   const opj_image_comp_t& component = image->comps[0];
   if (component.w != static_cast<OPJ_UINT32>(shape.columns) ||
     component.h != static_cast<OPJ_UINT32>(shape.rows) || !component.data)
   {
-    throw Problem(Damaged);
+    throw Problem(Damaged2000);
   }
   const std::vector<OPJ_INT32> samples(component.data, component.data + shape.count());
   return { widened(samples, shape.bytesOfNumber()), static_cast<int>(component.prec),

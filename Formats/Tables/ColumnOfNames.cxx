@@ -27,7 +27,7 @@ constexpr std::array<const char*, 35> OtherWords{ "subject", "patient", "partici
   "coordinatesystem", "space", "frame" };
 
 // Letters and digits between other signs, in small letters; "electrodeName" is two words.
-std::vector<std::string> wordsOfName(const std::string& written)
+std::vector<std::string> wordsOfColumn(const std::string& written)
 {
   std::string spaced;
   for (std::size_t i = 0; i < written.size(); ++i)
@@ -69,7 +69,7 @@ ColumnOfNames::ColumnOfNames(
     {
       continue;
     }
-    const std::vector<std::string> words = wordsOfName(header[i]);
+    const std::vector<std::string> words = wordsOfColumn(header[i]);
     Candidate candidate;
     candidate.at = i;
     candidate.isPlain = words.size() == 1 && (words[0] == "label" || words[0] == "name");

@@ -26,11 +26,11 @@ namespace brainshift
 namespace
 {
 using Values = std::vector<std::string>;
-using Names = std::array<const char*, 3>;
+using AxisNames = std::array<const char*, 3>;
 
 constexpr char Separators[] = { ',', ';', '\t' };
-constexpr Names RASNames{ "r", "a", "s" };
-constexpr Names LPSNames{ "l", "p", "s" };
+constexpr AxisNames RASNames{ "r", "a", "s" };
+constexpr AxisNames LPSNames{ "l", "p", "s" };
 
 constexpr std::array<std::pair<const char*, double Landmark::*>, 3> NumberColumns{ {
   { "number", &Landmark::number },

@@ -12,7 +12,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr double LongestSide = 2147483647.0;
 constexpr double MostDimensions = 4.0;
 constexpr double MostChannels = 65536.0;
 
@@ -27,11 +26,11 @@ constexpr const char* Keys[] = { "AcquisitionDate", "AnatomicalOrientation", "Bi
   "TransformMatrix", "TransformType" };
 
 // By the end of an ElementType, after "MET_".
-const std::map<std::string, int> Types{ { "CHAR", VTK_SIGNED_CHAR }, { "UCHAR", VTK_UNSIGNED_CHAR },
-  { "SHORT", VTK_SHORT }, { "USHORT", VTK_UNSIGNED_SHORT }, { "INT", VTK_INT },
-  { "UINT", VTK_UNSIGNED_INT }, { "LONG", VTK_INT }, { "ULONG", VTK_UNSIGNED_INT },
-  { "LONG_LONG", VTK_LONG_LONG }, { "ULONG_LONG", VTK_UNSIGNED_LONG_LONG }, { "FLOAT", VTK_FLOAT },
-  { "DOUBLE", VTK_DOUBLE } };
+const std::map<std::string, int> MetaTypes{ { "CHAR", VTK_SIGNED_CHAR },
+  { "UCHAR", VTK_UNSIGNED_CHAR }, { "SHORT", VTK_SHORT }, { "USHORT", VTK_UNSIGNED_SHORT },
+  { "INT", VTK_INT }, { "UINT", VTK_UNSIGNED_INT }, { "LONG", VTK_INT },
+  { "ULONG", VTK_UNSIGNED_INT }, { "LONG_LONG", VTK_LONG_LONG },
+  { "ULONG_LONG", VTK_UNSIGNED_LONG_LONG }, { "FLOAT", VTK_FLOAT }, { "DOUBLE", VTK_DOUBLE } };
 
 bool isKey(const std::string& name)
 {
@@ -82,7 +81,7 @@ bool isTrue(const std::string& value)
   return !value.empty() && (value[0] == 'T' || value[0] == 't' || value[0] == '1');
 }
 
-void readType(TextHeader& header)
+void readMetaType(TextHeader& header)
 {
   header.typeName = header.text.valueOf({ "ElementType" });
   std::string name = header.typeName;
@@ -91,8 +90,9 @@ void readType(TextHeader& header)
   {
     name.erase(name.size() - array.size());
   }
-  const auto type = name.compare(0, 4, "MET_") == 0 ? Types.find(name.substr(4)) : Types.end();
-  if (type == Types.end())
+  const auto type =
+    name.compare(0, 4, "MET_") == 0 ? MetaTypes.find(name.substr(4)) : MetaTypes.end();
+  if (type == MetaTypes.end())
   {
     throw Problem("has the ElementType " + header.typeName +
       "; BrainShift reads MET_CHAR, MET_SHORT, " +
@@ -126,7 +126,7 @@ void readAxes(std::size_t dimensions, TextHeader& header)
   }
   for (const double side : sides)
   {
-    if (!isWhole(side, 1.0, LongestSide))
+    if (!isWhole(side, 1.0, LongestAxis))
     {
       throw Problem(
         "has the DimSize " + sidesText + "; each must be a whole number from 1 to 2147483647");
@@ -312,7 +312,7 @@ void readScale(TextHeader& header)
   }
 }
 
-void readStorage(const std::string& fileName, TextHeader& header)
+void readMetaStorage(const std::string& fileName, TextHeader& header)
 {
   const std::vector<std::string> orders{ "BinaryDataByteOrderMSB", "ElementByteOrderMSB" };
   header.isBigEndian = isTrue(header.text.valueOf(orders));
@@ -364,10 +364,10 @@ void fromMetaImage(const std::string& fileName, TextHeader& header)
   requireKeys(header);
   header.space = HeaderSpace::LPS;
   readAxes(count, header);
-  readType(header);
+  readMetaType(header);
   readPlace(count, header);
   readScale(header);
-  readStorage(fileName, header);
+  readMetaStorage(fileName, header);
   compareOrientation(header);
 }
 }

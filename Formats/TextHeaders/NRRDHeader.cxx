@@ -13,10 +13,9 @@ namespace brainshift
 {
 namespace
 {
-constexpr double LongestSide = 2147483647.0;
 constexpr std::size_t MostAxes = 16; // of the format
 
-const std::map<std::string, int> Types{ { "signed char", VTK_SIGNED_CHAR },
+const std::map<std::string, int> NRRDTypes{ { "signed char", VTK_SIGNED_CHAR },
   { "int8", VTK_SIGNED_CHAR }, { "int8_t", VTK_SIGNED_CHAR }, { "uchar", VTK_UNSIGNED_CHAR },
   { "unsigned char", VTK_UNSIGNED_CHAR }, { "uint8", VTK_UNSIGNED_CHAR },
   { "uint8_t", VTK_UNSIGNED_CHAR }, { "short", VTK_SHORT }, { "short int", VTK_SHORT },
@@ -99,7 +98,7 @@ void readSizes(TextHeader& header)
   const std::vector<double> sizes = numbersIn(text);
   const bool isGood = !sizes.empty() && sizes.size() <= MostAxes &&
     std::all_of(
-      sizes.begin(), sizes.end(), [](double size) { return isWhole(size, 1.0, LongestSide); });
+      sizes.begin(), sizes.end(), [](double size) { return isWhole(size, 1.0, LongestAxis); });
   if (!isGood)
   {
     throw Problem(
@@ -136,11 +135,11 @@ std::vector<std::string> plainWords(const std::string& text)
   return wordsIn(text);
 }
 
-void readType(TextHeader& header)
+void readNRRDType(TextHeader& header)
 {
   header.typeName = header.text.valueOf({ "type" });
-  const auto type = Types.find(lowerCase(header.typeName));
-  if (type == Types.end())
+  const auto type = NRRDTypes.find(lowerCase(header.typeName));
+  if (type == NRRDTypes.end())
   {
     throw Problem("has the type " + header.typeName +
       (header.text.has("block size") || header.text.has("blocksize") ? " (with a block size)"
@@ -616,7 +615,7 @@ void readSkips(TextHeader& header)
   (header.encoding == Encoding::Packed ? header.unpackedSkip : header.fileSkip) = bytes;
 }
 
-void readStorage(const std::string& fileName, TextHeader& header)
+void readNRRDStorage(const std::string& fileName, TextHeader& header)
 {
   const std::string encoding = header.text.valueOf({ "encoding" });
   const auto known = Encodings.find(lowerCase(encoding));
@@ -647,8 +646,8 @@ void fromNRRD(const std::string& fileName, TextHeader& header)
   {
     header.axes[i].kind = lowerCase(kinds[i]);
   }
-  readType(header);
+  readNRRDType(header);
   readPlace(header);
-  readStorage(fileName, header);
+  readNRRDStorage(fileName, header);
 }
 }

@@ -18,6 +18,9 @@
 
 namespace brainshift
 {
+/** The most voxels along an axis, of VTK. */
+constexpr double LongestAxis = 2147483647.0;
+
 /** The lines of a header. */
 struct HeaderText
 {

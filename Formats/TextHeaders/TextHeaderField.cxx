@@ -28,7 +28,7 @@ constexpr const char* BackwardComment = "displacement field, mm, backward";
 constexpr const char* DirectionKey = "displacement field type"; // of NRRD
 
 constexpr double LargestSkew = 1e-3; // cosine between two axes
-constexpr int LongestSide = 65535;
+constexpr int LongestFieldSide = 65535;
 
 // Whether the components of a vector are along the last axis, not along the first.
 bool areLast(const TextHeader& header)
@@ -58,10 +58,10 @@ void place(const TextHeader& header, Grid& grid)
   {
     const std::size_t first = areLast(header) ? 0 : 1;
     const HeaderAxis& along = header.axes[static_cast<std::size_t>(axis) + first];
-    if (along.count > LongestSide)
+    if (along.count > LongestFieldSide)
     {
       throw Problem("has a side of " + std::to_string(along.count) +
-        " points; it must have at most " + std::to_string(LongestSide));
+        " points; it must have at most " + std::to_string(LongestFieldSide));
     }
     grid.dimensions[axis] = static_cast<int>(along.count);
     grid.origin[axis] = signs[axis] * header.origin[axis];

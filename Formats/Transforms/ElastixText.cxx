@@ -18,7 +18,7 @@ namespace brainshift
 namespace
 {
 using Words = std::vector<std::string>;
-using Entries = std::map<std::string, Words>; // of a parameter file, by name
+using EntriesByName = std::map<std::string, Words>; // of a parameter file, by name
 
 constexpr const char* Nothing = "NoInitialTransform";
 
@@ -82,7 +82,7 @@ Words wordsOf(const std::string& inside)
   return words;
 }
 
-void readEntry(const std::string& line, Entries& entries)
+void readEntry(const std::string& line, EntriesByName& entries)
 {
   if (line.empty())
   {
@@ -102,9 +102,9 @@ void readEntry(const std::string& line, Entries& entries)
   }
 }
 
-Entries entriesOf(const std::string& text)
+EntriesByName entriesOf(const std::string& text)
 {
-  Entries entries;
+  EntriesByName entries;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
   {
@@ -113,13 +113,13 @@ Entries entriesOf(const std::string& text)
   return entries;
 }
 
-bool has(const Entries& entries, const std::string& name)
+bool has(const EntriesByName& entries, const std::string& name)
 {
   return entries.count(name) > 0;
 }
 
 // The only word of an entry.
-std::string wordOf(const Entries& entries, const std::string& name)
+std::string wordOf(const EntriesByName& entries, const std::string& name)
 {
   const auto entry = entries.find(name);
   if (entry == entries.end())
@@ -134,12 +134,13 @@ std::string wordOf(const Entries& entries, const std::string& name)
   return entry->second.front();
 }
 
-std::string wordOf(const Entries& entries, const std::string& name, const std::string& otherwise)
+std::string wordOf(
+  const EntriesByName& entries, const std::string& name, const std::string& otherwise)
 {
   return has(entries, name) ? wordOf(entries, name) : otherwise;
 }
 
-bool isTrue(const Entries& entries, const std::string& name, bool otherwise)
+bool isTrue(const EntriesByName& entries, const std::string& name, bool otherwise)
 {
   const std::string word = wordOf(entries, name, otherwise ? "true" : "false");
   if (word != "true" && word != "false")
@@ -149,7 +150,7 @@ bool isTrue(const Entries& entries, const std::string& name, bool otherwise)
   return word == "true";
 }
 
-std::vector<double> numbersOf(const Entries& entries, const std::string& name)
+std::vector<double> numbersOf(const EntriesByName& entries, const std::string& name)
 {
   const auto entry = entries.find(name);
   if (entry == entries.end())
@@ -169,7 +170,8 @@ std::vector<double> numbersOf(const Entries& entries, const std::string& name)
   return numbers;
 }
 
-std::vector<double> numbersOf(const Entries& entries, const std::string& name, std::size_t count)
+std::vector<double> numbersOf(
+  const EntriesByName& entries, const std::string& name, std::size_t count)
 {
   std::vector<double> numbers = numbersOf(entries, name);
   if (numbers.size() != count)
@@ -210,7 +212,7 @@ std::string namedFile(const std::string& name, const std::string& fileName)
 }
 
 // The grid of a B-spline in ITK's order: elastix writes the direction by columns.
-std::vector<double> splineGrid(const Entries& entries)
+std::vector<double> splineGrid(const EntriesByName& entries)
 {
   std::vector<double> fixed;
   for (const char* name : { "GridSize", "GridOrigin", "GridSpacing" })
@@ -241,7 +243,7 @@ std::vector<double> splineGrid(const Entries& entries)
 }
 
 // What elastix can do with any transform and BrainShift does not.
-void requireKnown(const Entries& entries)
+void requireKnown(const EntriesByName& entries)
 {
   const std::string sides = wordOf(entries, "FixedImageDimension", "3") + " and " +
     wordOf(entries, "MovingImageDimension", "3");
@@ -261,7 +263,7 @@ void requireKnown(const Entries& entries)
   }
 }
 
-void addField(const Entries& entries, const std::string& fileName, const AddFile& addFile,
+void addField(const EntriesByName& entries, const std::string& fileName, const AddFile& addFile,
   PointTransform& transform)
 {
   const std::string order = wordOf(entries, "DeformationFieldInterpolationOrder", "0");
@@ -281,7 +283,7 @@ void addField(const Entries& entries, const std::string& fileName, const AddFile
 }
 
 // The fixed parameters that ITK's transform of a type has.
-std::vector<double> fixedOf(const Entries& entries, const std::string& type)
+std::vector<double> fixedOf(const EntriesByName& entries, const std::string& type)
 {
   if (type == "TranslationTransform")
   {
@@ -304,7 +306,7 @@ std::vector<double> fixedOf(const Entries& entries, const std::string& type)
   return fixed;
 }
 
-void addOwn(const Entries& entries, const std::string& fileName, const AddFile& addFile,
+void addOwn(const EntriesByName& entries, const std::string& fileName, const AddFile& addFile,
   PointTransform& transform)
 {
   static const std::map<std::string, std::string> typesOfITK{
@@ -349,7 +351,7 @@ bool isElastixText(const std::string& text)
 void addElastixText(const std::string& text, const std::string& fileName, const AddFile& addFile,
   PointTransform& transform)
 {
-  const Entries entries = entriesOf(text);
+  const EntriesByName entries = entriesOf(text);
   requireKnown(entries);
   std::string initial = wordOf(entries, "InitialTransformParameterFileName", Nothing);
   initial = wordOf(entries, "InitialTransformParametersFileName", initial); // before elastix 5.1

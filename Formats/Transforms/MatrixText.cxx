@@ -23,7 +23,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr double SmallestVolume = 1e-9; // determinant of a map that can be turned round
 constexpr double FarthestCorner = 0.01; // mm, of two images of one geometry
 constexpr double RoundingOfLast = 1e-5; // of the last row of a matrix in float32
 constexpr std::size_t MostMaps = 100;   // of an XFM
@@ -54,7 +53,7 @@ glm::dvec3 threeOf(const Entries& entries, const std::string& key)
 }
 
 // Rows of 3 or 4 times 4 numbers. The last row may be rounded.
-glm::dmat4 matrixOf(const std::vector<double>& rows)
+glm::dmat4 checkedMatrix(const std::vector<double>& rows)
 {
   glm::dmat4 matrix(1.0);
   for (std::size_t i = 0; i < rows.size() && i < 12; ++i)
@@ -274,7 +273,7 @@ bool addLTAText(const std::string& text, const NamedImages& images, PointTransfo
     throw Problem("holds " + shownWords(valueOf(lta.entries, "nxforms")) +
       " transforms (nxforms); it must hold 1");
   }
-  glm::dmat4 dstFromSrc = matrixOf(lta.rows); // RAS, mm
+  glm::dmat4 dstFromSrc = checkedMatrix(lta.rows); // RAS, mm
   if (isOfVoxels)
   {
     const Geometry src = geometryOf(lta, "src");
@@ -415,7 +414,7 @@ TransformLink linkOf(const StoredMap& map, const std::string& fileName)
       throw Problem("has " + std::to_string(numbers.size()) +
         " numbers in Linear_Transform; it must have 12, in 3 rows");
     }
-    return linkOf(matrixOf(numbers));
+    return linkOf(checkedMatrix(numbers));
   }
   if (map.type == "Grid_Transform")
   {

@@ -103,6 +103,9 @@ struct PointTransform
   std::vector<std::string> stories{}; ///< what each file says and leads to, one sentence each
 };
 
+/** The least determinant of a map that can be turned round. */
+constexpr double SmallestVolume = 1e-9;
+
 /** Solved positions that miss by more (mm) are told. */
 constexpr double ToldMissMm = 1e-3;
 

@@ -18,7 +18,6 @@ namespace
 {
 constexpr double LargestSide = 32768.0; // points of a grid along an axis
 constexpr double LargestNumber = 1e12;  // of mm, rad and voxels alike: no file needs it
-constexpr double SmallestVolume = 1e-9; // determinant of a map that can be turned round
 constexpr const char* OldSpline = "BSplineDeformableTransform"; // before ITK 4
 
 using Numbers = std::vector<double>;

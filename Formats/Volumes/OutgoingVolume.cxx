@@ -69,13 +69,13 @@ bool isUnsigned(int type)
   }
 }
 
-NumberType typeOf(vtkDataArray* array)
+VoxelNumber typeOf(vtkDataArray* array)
 {
   const int type = array->GetDataType();
   const bool isFloating = type == VTK_FLOAT || type == VTK_DOUBLE;
-  return { isFloating    ? NumberType::Kind::Floating
-      : isUnsigned(type) ? NumberType::Kind::Unsigned
-                         : NumberType::Kind::Signed,
+  return { isFloating    ? VoxelNumber::Kind::Floating
+      : isUnsigned(type) ? VoxelNumber::Kind::Unsigned
+                         : VoxelNumber::Kind::Signed,
     array->GetDataTypeSize() };
 }
 
@@ -89,7 +89,7 @@ vtkSmartPointer<vtkDataArray> copyAs(int type, vtkDataArray* array)
 // Whole numbers of 8 bytes, which most readers of medical files do not know, become those of 4.
 void shorten(vtkDataArray* array, OutgoingVolume& volume, std::string& warning)
 {
-  const bool isPositive = volume.type.kind == NumberType::Kind::Unsigned;
+  const bool isPositive = volume.type.kind == VoxelNumber::Kind::Unsigned;
   const double least = isPositive ? 0.0 : std::numeric_limits<vtkTypeInt32>::min();
   const double most = isPositive ? double(std::numeric_limits<vtkTypeUInt32>::max())
                                  : double(std::numeric_limits<vtkTypeInt32>::max());
@@ -126,7 +126,7 @@ void takeNumbers(vtkDataArray* array, OutgoingVolume& volume, std::string& warni
                   "whole numbers of 1 to 8 bytes, float or double");
   }
   volume.type = typeOf(array);
-  if (volume.type.bytes > 4 && volume.type.kind != NumberType::Kind::Floating)
+  if (volume.type.bytes > 4 && volume.type.kind != VoxelNumber::Kind::Floating)
   {
     shorten(array, volume, warning);
     return;

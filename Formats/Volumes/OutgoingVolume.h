@@ -38,7 +38,7 @@ constexpr const char* UnknownSidesWritten =
 constexpr const char* NoFieldNote = "components of a volume, no displacement field";
 
 /** A number of a voxel as files know it. */
-struct NumberType
+struct VoxelNumber
 {
   enum class Kind
   {
@@ -59,7 +59,7 @@ struct OutgoingVolume
   bool isLabelMap = false;    ///< its numbers are labels
   bool smallIsBright = false; ///< whether stations show small numbers bright
   std::string unit;           ///< of its numbers; empty: not known
-  NumberType type;
+  VoxelNumber type;
   vtkSmartPointer<vtkDataArray> numbers; ///< x fastest, components side by side in memory
 
   int components() const;

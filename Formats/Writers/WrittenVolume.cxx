@@ -20,7 +20,7 @@ namespace brainshift
 {
 namespace
 {
-using Kind = NumberType::Kind;
+using Kind = VoxelNumber::Kind;
 
 constexpr std::size_t NIFTIBytes = 348;    // sizeof_hdr
 constexpr std::size_t ExtensionBytes = 4;  // all zero: no extension follows
@@ -127,7 +127,7 @@ void setPlace(const OutgoingVolume& volume, NIFTIBytesOfHeader& header)
   header.set(254, volume.knowsSides ? ScannerAnatomy : atLeast);
 }
 
-std::string metaImageType(const NumberType& type)
+std::string metaImageType(const VoxelNumber& type)
 {
   const std::string sign = type.kind == Kind::Unsigned ? "U" : "";
   switch (type.kind)
@@ -139,7 +139,7 @@ std::string metaImageType(const NumberType& type)
   }
 }
 
-std::string nrrdType(const NumberType& type)
+std::string nrrdType(const VoxelNumber& type)
 {
   if (type.kind == Kind::Floating)
   {

@@ -5,6 +5,7 @@
 #define BrainShift_Application_h
 
 #include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
@@ -20,6 +21,12 @@ namespace brainshift
 inline pqServerManagerModel* serverManagerModel()
 {
   return pqApplicationCore::instance()->getServerManagerModel();
+}
+
+/// The source of the window that a proxy is; null if it is none.
+inline pqPipelineSource* sourceOf(vtkSMProxy* proxy)
+{
+  return serverManagerModel()->findItem<pqPipelineSource*>(proxy);
 }
 
 /// Whether undo or redo is bringing something back.

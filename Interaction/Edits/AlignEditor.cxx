@@ -39,7 +39,7 @@ constexpr qint64 SearchMs = 40; // between two pictures, so that Stop takes effe
 
 constexpr const char* Placement[] = { "ReferenceRotation", "ReferenceTranslation" };
 // An alignment depends on these properties. A change of one of them ends it.
-constexpr const char* Dependencies[] = { "Input", "Reference", "Cavity", "CavityLabels" };
+constexpr const char* ComparedDependencies[] = { "Input", "Reference", "Cavity", "CavityLabels" };
 // Of the deformation, beside the settings of the lattice.
 constexpr const char* DeformationDependencies[] = { "Input", "Lattice", "Strokes", "Strength",
   "Inverse" };
@@ -262,7 +262,7 @@ bool AlignEditor::dependsOn(vtkObject* object, const char* property) const
 {
   if (object == this->Source->getProxy())
   {
-    return isAmong(Placement, property) || isAmong(Dependencies, property);
+    return isAmong(Placement, property) || isAmong(ComparedDependencies, property);
   }
   auto proxy = vtkSMProxy::SafeDownCast(object);
   if (!proxy->GetProperty("Strokes")) // a lattice; an edit of it has stopped a search already

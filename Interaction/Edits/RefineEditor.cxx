@@ -94,7 +94,7 @@ vtkSmartPointer<vtkSMProxy> comparisonFor(
 
 // A refinement depends on these properties, beside the settings of the lattice. A change of one of
 // them ends it.
-constexpr const char* Dependencies[] = { "Input", "Lattice", "Strokes", "Strength" };
+constexpr const char* BendDependencies[] = { "Input", "Lattice", "Strokes", "Strength" };
 // And on these of its Compare Volumes.
 constexpr const char* CompareDependencies[] = { "Input", "Reference", "ReferenceRotation",
   "ReferenceTranslation", "Cavity", "CavityLabels" };
@@ -521,7 +521,7 @@ bool RefineEditor::dependsOn(vtkObject* object, const char* property) const
       ? isChanged("ControlPoints")
       : std::any_of(std::begin(CompareDependencies), std::end(CompareDependencies), isChanged);
   }
-  return std::any_of(std::begin(Dependencies), std::end(Dependencies), isChanged) ||
+  return std::any_of(std::begin(BendDependencies), std::end(BendDependencies), isChanged) ||
     isLatticeSetting(this->Source->getProxy(), property);
 }
 

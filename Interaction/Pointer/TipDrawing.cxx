@@ -35,7 +35,7 @@ namespace
 constexpr double TipRadiusMm = 1.5;
 constexpr double ShaftRadiusMm = 0.6;
 constexpr double ShaftLengthMm = 60.0;
-constexpr double StillMm = 0.02; // less than a pixel
+constexpr double UnseenMm = 0.02; // less than a pixel
 constexpr float TracePixels = 5.0F;
 constexpr std::array<double, 3> TipColor{ 1.0, 0.85, 0.2 };
 constexpr std::array<double, 3> ShaftColor{ 0.9, 0.9, 0.9 };
@@ -120,8 +120,8 @@ void TipDrawing::show(const glm::dvec3& tip, const glm::dvec3& shaft)
 {
   Parts& parts = *this->Internal;
   const glm::dvec3 end = tip + ShaftLengthMm * shaft;
-  if (this->Shown && !parts.TraceChanged && glm::distance(tip, parts.Tip) < StillMm &&
-    glm::distance(end, parts.End) < StillMm)
+  if (this->Shown && !parts.TraceChanged && glm::distance(tip, parts.Tip) < UnseenMm &&
+    glm::distance(end, parts.End) < UnseenMm)
   {
     return; // a tip at rest needs no pictures
   }

@@ -17,6 +17,9 @@
 
 namespace brainshift
 {
+/// Growth of a radius for each click of the wheel with Shift.
+constexpr double GrowthPerClick = 1.1;
+
 /// What a tool works with. All of it outlives the tool.
 struct ToolBench
 {

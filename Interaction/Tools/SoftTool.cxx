@@ -10,8 +10,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr double GrowthPerClick = 1.1; // of the radius, of the wheel with Shift
-
 class SoftTool final : public HandTool
 {
 public:

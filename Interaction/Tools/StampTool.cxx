@@ -10,7 +10,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr double GrowthPerClick = 1.1;  // of the major radius, of the wheel with Shift
 constexpr double SamePlacePixels = 4.0; // a resting hand trembles less
 constexpr double CrossShare = 0.15;     // of the major radius
 

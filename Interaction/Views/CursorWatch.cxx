@@ -47,7 +47,7 @@ void RestingCursor::follow(pqPipelineSource* deformation, pqRenderView* view)
 
 namespace
 {
-constexpr float Priority = 1.0f; // before widgets, 0.5
+constexpr float BeforeWidgets = 1.0f; // before widgets, 0.5
 }
 
 CursorWatch::CursorWatch(QObject* parent)
@@ -78,10 +78,11 @@ void CursorWatch::watch(pqView* added)
   this->Views[interactor] = view;
   for (unsigned long event : { vtkCommand::EnterEvent, vtkCommand::MouseMoveEvent })
   {
-    this->Connector->Connect(interactor, event, this, SLOT(enter(vtkObject*)), nullptr, Priority);
+    this->Connector->Connect(
+      interactor, event, this, SLOT(enter(vtkObject*)), nullptr, BeforeWidgets);
   }
   this->Connector->Connect(
-    interactor, vtkCommand::LeaveEvent, this, SLOT(leave(vtkObject*)), nullptr, Priority);
+    interactor, vtkCommand::LeaveEvent, this, SLOT(leave(vtkObject*)), nullptr, BeforeWidgets);
   QObject::connect(view, &QObject::destroyed, this, [this, interactor] {
     this->Views.remove(interactor);
     this->Connector->Disconnect(interactor);

@@ -101,8 +101,8 @@ void followInOtherViews(vtkSMProxy* display)
 
 namespace
 {
-constexpr float Priority = 0.1f; // before ParaView's camera, after tools that take the mouse
-constexpr double Faces = 0.99;   // least cosine between the viewing direction and a plane's normal
+constexpr float BeforeCamera = 0.1f; // before ParaView's camera, after tools that take the mouse
+constexpr double Faces = 0.99; // least cosine between the viewing direction and a plane's normal
 constexpr int Planes = 3;
 constexpr const char* ShowNames[Planes] = { "ShowSagittal", "ShowCoronal", "ShowAxial" };
 constexpr int Flat = 1;            // InteractionMode of a 2D view
@@ -238,7 +238,7 @@ SliceMouse::SliceMouse(pqRenderView* view)
   , Interactor(view->getRenderViewProxy()->GetInteractor())
 {
   const auto observe = [this](unsigned long event, auto method) {
-    this->Observers.push_back(this->Interactor->AddObserver(event, this, method, Priority));
+    this->Observers.push_back(this->Interactor->AddObserver(event, this, method, BeforeCamera));
   };
   observe(vtkCommand::MouseWheelForwardEvent, &SliceMouse::onWheel);
   observe(vtkCommand::MouseWheelBackwardEvent, &SliceMouse::onWheel);

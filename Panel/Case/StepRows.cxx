@@ -17,9 +17,9 @@ namespace brainshift
 {
 namespace
 {
-constexpr int Gap = 3; // pixels between rows
+constexpr int RowGap = 3; // pixels between rows
 
-enum Column
+enum StepColumn
 {
   ButtonColumn,
   SignColumn,
@@ -101,7 +101,7 @@ StepRows::StepRows()
 {
   this->setObjectName("BrainShiftCaseSteps");
   this->Grid->setContentsMargins(0, 0, 0, 0);
-  this->Grid->setVerticalSpacing(Gap);
+  this->Grid->setVerticalSpacing(RowGap);
   this->Grid->setColumnStretch(TextColumn, 1);
   // Now, so that the key Tab comes to them in this order.
   for (const char* step : { "Look", "Measure", "Fit", "By hand", "Refine", "Judge", "Export",

@@ -17,10 +17,10 @@ namespace
 constexpr int Rows = 7;            // height, in lines of text
 constexpr int Stops = 24;          // of the shade, from the centre to the edge
 constexpr double FullShade = 0.75; // opacity where tissue follows the whole stroke
-constexpr double Margin = 3.0;     // pixels
+constexpr double Border = 3.0;     // pixels
 constexpr double ArrowHead = 4.0;  // pixels
 
-QString millimetres(double value)
+QString shownMm(double value)
 {
   return tr("%1 mm").arg(value, 0, 'f', 1);
 }
@@ -62,13 +62,13 @@ QString describe(const Reach& reach)
   {
     return tr("Tissue within %1 of the cursor moves. At the centre it moves fully, at %2 half as "
               "far (dashed), at the edge not at all.")
-      .arg(millimetres(reach.along), millimetres(half * reach.along));
+      .arg(shownMm(reach.along), shownMm(half * reach.along));
   }
   return tr(
     "Tissue within %1 of the cursor along the push and %2 across it moves. At the centre it moves "
     "fully, at %3 along and %4 across half as far (dashed), at the edge not at all.")
-    .arg(millimetres(reach.along), millimetres(reach.across), millimetres(half * reach.along),
-      millimetres(half * reach.across));
+    .arg(shownMm(reach.along), shownMm(reach.across), shownMm(half * reach.along),
+      shownMm(half * reach.across));
 }
 
 ReachDrawing::ReachDrawing(QWidget* parent)
@@ -103,7 +103,7 @@ void ReachDrawing::paintEvent(QPaintEvent*)
   const double ends = reach.hasAxis // what stands at both ends of the axis
     ? this->fontMetrics().horizontalAdvance(tr("push")) + 2.0 * line
     : 0.0;
-  const QSizeF room(0.5 * this->width() - ends - Margin, 0.5 * (this->height() - line) - Margin);
+  const QSizeF room(0.5 * this->width() - ends - Border, 0.5 * (this->height() - line) - Border);
   if (room.width() <= 0.0)
   {
     return;
@@ -179,14 +179,14 @@ void ReachDrawing::drawSizes(QPainter& painter, const QPointF& centre, const QSi
   {
     painter.drawLine(centre, centre + QPointF(half.width(), 0.0));
     this->drawText(painter, centre + QPointF(half.width() + 4.0, 0.0), Qt::AlignLeft,
-      millimetres(this->Shown.along));
+      shownMm(this->Shown.along));
     return;
   }
   painter.drawLine(centre, centre - QPointF(0.0, half.height()));
   this->drawText(painter, centre + QPointF(0.5 * half.width(), 0.5 * line), Qt::AlignHCenter,
-    millimetres(this->Shown.along));
+    shownMm(this->Shown.along));
   this->drawText(painter, centre + QPointF(3.0, -0.5 * (half.height() + line) + 0.5 * line),
-    Qt::AlignLeft, millimetres(this->Shown.across));
+    Qt::AlignLeft, shownMm(this->Shown.across));
 }
 
 // `at`: the middle of the text's height, at its left end, middle or right end. A seam of the

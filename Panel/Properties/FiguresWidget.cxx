@@ -43,11 +43,6 @@ bool hasHint(vtkSMProperty* property, const char* name)
   return hints && hints->FindNestedElementByName(name);
 }
 
-pqPipelineSource* sourceOf(vtkSMProxy* proxy)
-{
-  return serverManagerModel()->findItem<pqPipelineSource*>(proxy);
-}
-
 QString tipOf(vtkSMProperty* property)
 {
   vtkSMDocumentation* documentation = property->GetDocumentation();

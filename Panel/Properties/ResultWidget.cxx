@@ -29,12 +29,6 @@ namespace
 {
 constexpr qint64 FiguresMs = 250; // at least, from one update to the next: faster cannot be read
 
-pqPipelineSource* sourceOf(vtkSMProxy* proxy)
-{
-  pqServerManagerModel* model = serverManagerModel();
-  return model->findItem<pqPipelineSource*>(proxy);
-}
-
 void showGraded(QLabel* label, const QString& text, Grade grade)
 {
   const QColor color = gradeColor(grade, label->palette(), wantsBlueAndOrange());

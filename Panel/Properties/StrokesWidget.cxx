@@ -26,12 +26,6 @@ namespace
 {
 constexpr int ListMs = 250; // from one update of a list under the hand to the next
 
-pqPipelineSource* sourceOf(vtkSMProxy* proxy)
-{
-  pqServerManagerModel* model = serverManagerModel();
-  return model->findItem<pqPipelineSource*>(proxy);
-}
-
 StrokeModel* makeModel(StrokeEditor* owner, vtkSMProperty* property, QObject* parent)
 {
   const QPointer<StrokeEditor> editor = owner; // the source may go before its panel does

@@ -14,13 +14,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr int WholeProgress = 100;
-
-QString figure(double value, int digits = 2)
-{
-  return QString::number(value, 'f', digits);
-}
-
 QString moved(const AlignFigures& figures)
 {
   return AlignPane::tr(

@@ -28,6 +28,11 @@ QString percent(double fraction)
 }
 }
 
+QString figure(double value, int digits)
+{
+  return QString::number(value, 'f', digits);
+}
+
 QToolButton* makeButton(const char* name, const QString& text, const QString& tip)
 {
   auto button = new QToolButton;

@@ -15,6 +15,12 @@ namespace brainshift
 {
 struct LandmarkError;
 
+/// The progress of what is done, as progress bars of panes count it.
+constexpr int WholeProgress = 100;
+
+/// A number with decimals.
+QString figure(double value, int digits = 2);
+
 /// A button that leaves the keyboard where it is when it is clicked.
 QToolButton* makeButton(const char* name, const QString& text, const QString& tip);
 

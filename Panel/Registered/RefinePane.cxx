@@ -31,7 +31,6 @@ namespace brainshift
 namespace
 {
 constexpr int LeastLetters = 10; // of a list: the panel is narrow
-constexpr int WholeProgress = 100;
 
 bool isKind(pqPipelineSource* source, const char* kind)
 {
@@ -112,16 +111,10 @@ QComboBox* makeList(const QString& name)
   return list;
 }
 
-QString figure(double value, int digits = 2)
-{
-  return QString::number(value, 'f', digits);
-}
-
-QString percent(double fraction)
+QString wholePercent(double fraction)
 {
   return figure(100.0 * fraction, 0);
 }
-
 }
 
 QString refineProgress(const RefineFigures& figures)
@@ -130,7 +123,7 @@ QString refineProgress(const RefineFigures& figures)
            "Step %1: control points moved %2 mm at most, %3 mm on average. %4 % of %5 is "
            "compared.")
            .arg(QString::number(figures.steps), figure(figures.largestChange),
-             figure(figures.meanChange), percent(figures.overlap), figures.overlapOf) +
+             figure(figures.meanChange), wholePercent(figures.overlap), figures.overlapOf) +
     (figures.isChecking ? " " + checkingText() : QString());
 }
 
@@ -152,10 +145,10 @@ QString refineResult(const QString& ended, const RefineFigures& figures)
   }
   lines += figures.stepFraction < 1.0
     ? RefinePane::tr("The guard against folding shortened steps, the shortest to %1 %.")
-        .arg(percent(figures.stepFraction))
+        .arg(wholePercent(figures.stepFraction))
     : RefinePane::tr("The guard against folding shortened no step.");
-  lines +=
-    RefinePane::tr("%1 % of %2 was compared.").arg(percent(figures.overlap), figures.overlapOf);
+  lines += RefinePane::tr("%1 % of %2 was compared.")
+             .arg(wholePercent(figures.overlap), figures.overlapOf);
   lines += trustText(figures.trust);
   return lines.join(' ');
 }

@@ -49,14 +49,24 @@ def arguments_of(command):
     return kept
 
 
+def compiled_by(entry):
+    """The files of an entry of compile_commands.json: itself, or what a unity build puts in."""
+    path = pathlib.Path(entry["directory"], entry["file"]).resolve()
+    if path.parent.name != "Unity":
+        return [path]
+    text = path.read_text(encoding="utf-8")
+    return [pathlib.Path(file).resolve()
+            for file in re.findall(r'^#include "(.+)"', text, re.MULTILINE)]
+
+
 def compile_arguments(tree, build):
     """The arguments that each C++ file of the checkout is compiled with, by its path."""
     root = tree.root.resolve()
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
-        path = pathlib.Path(entry["directory"], entry["file"]).resolve()
-        if path.is_relative_to(root) and path.relative_to(root).as_posix() in tree.known:
-            found[path.relative_to(root).as_posix()] = arguments_of(entry["command"])
+        for path in compiled_by(entry):
+            if path.is_relative_to(root) and path.relative_to(root).as_posix() in tree.known:
+                found[path.relative_to(root).as_posix()] = arguments_of(entry["command"])
     return found
 
 

@@ -12,7 +12,7 @@ namespace
 constexpr double MostCost = 0.2;
 
 const Metric LocalCorrelationMetric = localCorrelationMetric();
-const Metric SelfSimilarityMetric = selfSimilarityMetric();
+const Metric CheckMetric = selfSimilarityMetric();
 }
 
 Similarity describeLocalCorrelation()
@@ -25,7 +25,7 @@ Similarity describeLocalCorrelation()
   result.plan.levels = { { &LocalCorrelationMetric, 4.0 }, { &LocalCorrelationMetric, 2.0 },
     { &LocalCorrelationMetric, 1.3, MostCost, false, true } };
   result.plan.check.halves = { &LocalCorrelationMetric, 4.0, 1.0, true };
-  result.plan.check.other = { &SelfSimilarityMetric, 4.0, 1.0, true };
+  result.plan.check.other = { &CheckMetric, 4.0, 1.0, true };
   result.plan.check.blocks = selfSimilarityDescriptor();
   return result;
 }

@@ -134,7 +134,7 @@ static_assert(SelfSimilarityNumbers % Lanes == 0, "every step is full");
 
 // Sums over all numbers of a point: squared difference, its products with the three slopes, and the
 // products of the slopes.
-constexpr int Sums = 10;
+constexpr int SumsOfPoint = 10;
 
 // Adds the products of Lanes channels. The compiler turns each line into one instruction.
 inline void addProducts(
@@ -198,8 +198,8 @@ void compareNumbers(
 float forceOf(
   const float sums[][Lanes], const glm::vec3& stepsPerMm, float weight, float freedom, float* force)
 {
-  float total[Sums];
-  for (int s = 0; s < Sums; ++s)
+  float total[SumsOfPoint];
+  for (int s = 0; s < SumsOfPoint; ++s)
   {
     total[s] = sums[s][0] + sums[s][1] + sums[s][2] + sums[s][3];
   }
@@ -391,7 +391,7 @@ CostAndForces SelfSimilarity<Images, OneIn>::compare(const std::vector<glm::vec3
         const float weight = Images == 2 ? counted * this->Importance[sample.number] : counted;
         if (weight > 0.0f)
         {
-          float sums[Sums][Lanes] = {};
+          float sums[SumsOfPoint][Lanes] = {};
           compareNumbers<Channels>(&this->Rest[sample.number * Channels],
             &this->Reference[sample.at.first * Channels], sample.at, sums);
           float force[ForceNumbers];

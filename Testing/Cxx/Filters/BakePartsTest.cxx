@@ -30,7 +30,7 @@ Grid obliqueVolume()
   return grid;
 }
 
-double someValue(vtkIdType i)
+double partValue(vtkIdType i)
 {
   return 20.0 + (i * 7919 + i / 17 * 31) % 1113;
 }
@@ -48,7 +48,7 @@ vtkSmartPointer<vtkImageData> manyNumbers()
   image->SetDirectionMatrix(&rows[0][0]);
   const vtkIdType points = image->GetNumberOfPoints();
   const vtkIdType cells = image->GetNumberOfCells();
-  auto scalars = arrayOf(VTK_SHORT, "Intensity", points, someValue);
+  auto scalars = arrayOf(VTK_SHORT, "Intensity", points, partValue);
   scalars->SetTuple1(points - 1, -700.0);
   image->GetPointData()->SetScalars(scalars);
   auto vectors = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTK_FLOAT));
@@ -79,10 +79,10 @@ enum class Bend
   Folding, // random: the inverse is not one
 };
 
-class Pipeline
+class PartsPipeline
 {
 public:
-  explicit Pipeline(vtkImageData* volume, Bend bend = Bend::Strokes, int interpolation = 1)
+  explicit PartsPipeline(vtkImageData* volume, Bend bend = Bend::Strokes, int interpolation = 1)
   {
     this->Source->Whole = volume;
     this->Deform->SetInputConnection(this->Source->GetOutputPort());
@@ -204,11 +204,11 @@ TEST_P(BakeParts, HaveTheNumbersOfTheWhole)
   auto volume = manyNumbers();
   for (const int interpolation : { 0, 1, 2 })
   {
-    Pipeline ofWhole(volume, GetParam(), interpolation);
+    PartsPipeline ofWhole(volume, GetParam(), interpolation);
     vtkImageData* whole = ofWhole.whole();
     EXPECT_EQ(ofWhole.Source->Delivered.size(), 1u) << "all at once, as it is quickest";
     EXPECT_GT(numbersThatMove(volume, whole), 3000);
-    Pipeline ofParts(volume, GetParam(), interpolation);
+    PartsPipeline ofParts(volume, GetParam(), interpolation);
     for (const Extent& extent : someParts())
     {
       vtkImageData* part = ofParts.part(extent);
@@ -231,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(Of, BakeParts,
 TEST(BakePart, TakesTheLowestValueOfTheWholeVolume)
 {
   auto volume = manyNumbers();
-  Pipeline pipeline(volume, Bend::Border);
+  PartsPipeline pipeline(volume, Bend::Border);
   vtkImageData* corner = pipeline.part({ 5, 14, -3, 6, 2, 11 });
   double range[2];
   corner->GetPointData()->GetScalars()->GetRange(range);
@@ -250,7 +250,7 @@ TEST(BakePart, TakesTheLowestValueOfTheWholeVolume)
 
 TEST(BakePart, ReadsOnlyWhereItsTissueRests)
 {
-  Pipeline pipeline(manyNumbers());
+  PartsPipeline pipeline(manyNumbers());
   pipeline.moveMiddle();
   pipeline.part({ 5, 14, -3, 6, 2, 11 });
   for (const Extent& extent : pipeline.Source->Delivered)
@@ -266,7 +266,7 @@ TEST(BakePart, ReadsOnlyWhereItsTissueRests)
 TEST(BakePart, FollowsAnotherStroke)
 {
   auto volume = manyNumbers();
-  Pipeline pipeline(volume);
+  PartsPipeline pipeline(volume);
   const Extent asked{ 5, 64, -3, 46, 12, 21 };
   pipeline.part(asked);
   const auto strokes = { strokeAt(
@@ -274,7 +274,7 @@ TEST(BakePart, FollowsAnotherStroke)
   setStrokes(pipeline.Deform, strokes);
   vtkNew<vtkImageData> part;
   part->DeepCopy(pipeline.part(asked));
-  Pipeline ofWhole(volume);
+  PartsPipeline ofWhole(volume);
   setStrokes(ofWhole.Deform, strokes);
   EXPECT_EQ(differentNumbers(part, ofWhole.whole()), 0);
 }
@@ -283,11 +283,11 @@ TEST(BakePart, OfLabelsMakesNoNewOnes)
 {
   auto volume = manyNumbers();
   markLabelMap(volume, true);
-  Pipeline ofWhole(volume);
+  PartsPipeline ofWhole(volume);
   vtkImageData* whole = ofWhole.whole();
-  Pipeline nearest(volume, Bend::Strokes, 0);
+  PartsPipeline nearest(volume, Bend::Strokes, 0);
   EXPECT_EQ(differentNumbers(nearest.whole(), whole), 0);
-  Pipeline ofParts(volume);
+  PartsPipeline ofParts(volume);
   vtkImageData* part = ofParts.part({ 5, 64, -3, 46, 12, 21 });
   EXPECT_EQ(differentNumbers(part, whole), 0);
   EXPECT_TRUE(isLabelMap(part));
@@ -296,12 +296,12 @@ TEST(BakePart, OfLabelsMakesNoNewOnes)
 TEST(BakePart, OfRanksIsReadAtOnce)
 {
   auto volume = manyNumbers();
-  Pipeline ofWhole(volume, Bend::Border);
+  PartsPipeline ofWhole(volume, Bend::Border);
   vtkImageData* whole = ofWhole.whole();
   double points = 0.0;
   for (int piece = 0; piece < 4; ++piece)
   {
-    Pipeline ofRank(volume, Bend::Border);
+    PartsPipeline ofRank(volume, Bend::Border);
     ofRank.Bake->UpdatePiece(piece, 4, 0);
     vtkImageData* part = ofRank.Bake->GetOutput();
     EXPECT_EQ(differentNumbers(part, whole), 0) << piece;
@@ -309,7 +309,7 @@ TEST(BakePart, OfRanksIsReadAtOnce)
     points += pointsIn(extentOf(part));
   }
   EXPECT_GE(points, pointsIn(WholeExtent));
-  Pipeline ofRank(volume);
+  PartsPipeline ofRank(volume);
   ofRank.moveMiddle();
   ofRank.Bake->UpdatePiece(0, 64, 0);
   EXPECT_EQ(ofRank.Source->Delivered.size(), 2u);
@@ -318,7 +318,7 @@ TEST(BakePart, OfRanksIsReadAtOnce)
 
 TEST(BakePart, OfASmallVolumeIsReadWithTheRest)
 {
-  Pipeline pipeline(manyNumbers());
+  PartsPipeline pipeline(manyNumbers());
   pipeline.Bake->SetMemoryLimit(512.0);
   pipeline.part({ 5, 64, -3, 46, 12, 21 });
   pipeline.part({ 5, 64, -3, 46, 22, 31 });
@@ -358,9 +358,9 @@ protected:
 TEST(BakePart, LeavesOtherConsumersTheirVoxels)
 {
   auto volume = manyNumbers();
-  Pipeline ofWhole(volume, Bend::Border);
+  PartsPipeline ofWhole(volume, Bend::Border);
   vtkImageData* whole = ofWhole.whole();
-  Pipeline pipeline(volume, Bend::Border);
+  PartsPipeline pipeline(volume, Bend::Border);
   vtkNew<Difference> difference;
   difference->SetInputConnection(0, pipeline.Deform->GetOutputPort());
   difference->SetInputConnection(1, pipeline.Bake->GetOutputPort());
@@ -389,7 +389,7 @@ TEST(BakePart, OfAnInputThatFailsIsAnError)
   auto volume = manyNumbers();
   for (const int request : { 0, 1, 2 })
   {
-    Pipeline pipeline(volume);
+    PartsPipeline pipeline(volume);
     pipeline.Source->FailsAt = request;
     Errors errors(pipeline.Bake);
     pipeline.part({ 5, 64, -3, 46, 12, 21 });
@@ -401,14 +401,14 @@ TEST(BakePart, OfAnInputThatFailsIsAnError)
     pipeline.Source->FailsAt = -1;
     pipeline.Source->Modified();
     vtkImageData* part = pipeline.part({ 5, 64, -3, 46, 12, 21 });
-    Pipeline ofWhole(volume);
+    PartsPipeline ofWhole(volume);
     EXPECT_EQ(differentNumbers(part, ofWhole.whole()), 0) << "it works again";
   }
 }
 
 TEST(BakePart, CanBeAborted)
 {
-  Pipeline pipeline(manyNumbers());
+  PartsPipeline pipeline(manyNumbers());
   vtkNew<vtkCallbackCommand> abort;
   abort->SetCallback([](vtkObject* filter, unsigned long, void*, void*) {
     auto* own = static_cast<vtkAlgorithm*>(filter);

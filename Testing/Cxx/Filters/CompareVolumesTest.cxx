@@ -17,7 +17,7 @@ using namespace brainshift::testing;
 
 namespace
 {
-const Grid VolumeGrid = plainGrid({ 21, 19, 17 }, glm::dvec3(2.0));
+const Grid ComparedGrid = plainGrid({ 21, 19, 17 }, glm::dvec3(2.0));
 
 // A bent volume and a reference on another grid, compared.
 class CompareVolumes : public ::testing::Test
@@ -26,7 +26,7 @@ protected:
   void SetUp() override
   {
     const auto value = [](vtkIdType i) { return double(i % 17); };
-    this->Bend->SetInputData(volumeOn(VolumeGrid, VTK_SHORT, value));
+    this->Bend->SetInputData(volumeOn(ComparedGrid, VTK_SHORT, value));
     this->Filter->SetInputConnection(this->Bend->GetOutputPort());
     this->Reference = volumeOn(this->ReferenceGrid, VTK_SHORT, value);
     this->Filter->SetInputData(1, this->Reference);
@@ -182,7 +182,7 @@ TEST_F(CompareVolumes, RefusesAxesThatAreNotPerpendicular)
   EXPECT_NE(
     this->Said.take().find(std::string("The reference's ") + NotPerpendicular), std::string::npos);
   const auto value = [](vtkIdType i) { return double(i % 17); };
-  const auto volume = volumeOn(VolumeGrid, VTK_SHORT, value);
+  const auto volume = volumeOn(ComparedGrid, VTK_SHORT, value);
   shear(volume);
   Errors said(this->Bend);
   this->Bend->SetInputData(volume);

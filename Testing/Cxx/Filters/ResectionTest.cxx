@@ -17,7 +17,7 @@ using namespace brainshift::testing;
 
 namespace
 {
-const Grid VolumeGrid = plainGrid({ 21, 19, 17 }, glm::dvec3(2.0));
+const Grid ResectedGrid = plainGrid({ 21, 19, 17 }, glm::dvec3(2.0));
 constexpr vtkIdType One = 0;
 constexpr vtkIdType Two = 1;
 
@@ -36,7 +36,7 @@ protected:
   void SetUp() override
   {
     this->Bend->SetInputData(
-      volumeOn(VolumeGrid, VTK_SHORT, [](vtkIdType i) { return double(i % 17); }));
+      volumeOn(ResectedGrid, VTK_SHORT, [](vtkIdType i) { return double(i % 17); }));
     this->Filter->SetInputConnection(this->Bend->GetOutputPort());
   }
 
@@ -60,12 +60,12 @@ protected:
 TEST_F(ResectionFilter, AttachesBothMasksByTheirLabels)
 {
   this->Filter->SetInputData(1, twoLabels(this->MaskGrid));
-  this->Filter->SetInputData(2, twoLabels(VolumeGrid));
+  this->Filter->SetInputData(2, twoLabels(ResectedGrid));
   this->Filter->AddCavityLabel(5);
   const Resection found = this->run();
   ASSERT_TRUE(found.tumour.voxels && found.cavity.voxels);
   EXPECT_EQ(found.tumour.grid, this->MaskGrid);
-  EXPECT_EQ(found.cavity.grid, VolumeGrid);
+  EXPECT_EQ(found.cavity.grid, ResectedGrid);
   EXPECT_EQ(found.tumour.voxels->GetComponent(One, 0), 1.0);
   EXPECT_EQ(found.tumour.voxels->GetComponent(Two, 0), 1.0);
   EXPECT_EQ(found.cavity.voxels->GetComponent(One, 0), 0.0);
@@ -77,7 +77,7 @@ TEST_F(ResectionFilter, AttachesBothMasksByTheirLabels)
 TEST_F(ResectionFilter, AStrokeMakesNoNewArrays)
 {
   this->Filter->SetInputData(1, twoLabels(this->MaskGrid));
-  this->Filter->SetInputData(2, twoLabels(VolumeGrid));
+  this->Filter->SetInputData(2, twoLabels(ResectedGrid));
   const Resection before = this->run();
   this->Bend->SetSamples(3);
   const Resection after = this->run();
@@ -89,7 +89,7 @@ TEST_F(ResectionFilter, TakesTheCavityOfCompareVolumesWhereTheReferenceWasMovedT
 {
   vtkNew<vtkCompareVolumes> compare;
   compare->SetInputConnection(this->Bend->GetOutputPort());
-  compare->SetInputData(1, volumeOn(VolumeGrid, VTK_SHORT, [](vtkIdType) { return 1.0; }));
+  compare->SetInputData(1, volumeOn(ResectedGrid, VTK_SHORT, [](vtkIdType) { return 1.0; }));
   compare->SetInputData(2, twoLabels(this->MaskGrid));
   compare->SetReferenceTranslation(1.0, 2.0, 3.0);
   this->Filter->SetInputConnection(compare->GetOutputPort());
@@ -104,7 +104,7 @@ TEST_F(ResectionFilter, TakesTheCavityOfCompareVolumesWhereTheReferenceWasMovedT
 TEST_F(ResectionFilter, LeavesTissueThereIfAsked)
 {
   this->Filter->SetInputData(1, twoLabels(this->MaskGrid));
-  this->Filter->SetInputData(2, twoLabels(VolumeGrid));
+  this->Filter->SetInputData(2, twoLabels(ResectedGrid));
   this->Filter->RemoveTissueOff();
   const Resection found = this->run();
   EXPECT_TRUE(found.tumour.voxels);

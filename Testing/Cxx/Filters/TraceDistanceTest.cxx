@@ -2,6 +2,7 @@
 // Proves that Trace Distance gives the signed distance to the cortex as deformed, that its numbers
 // are those of the array, that cavities do not count, and that a stroke redoes only its own part,
 // with the result of doing all of it.
+#include "Common/Numbers.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Traces/TissueSurface.h"
 #include "Filters/Traces/TraceStatistics.h"
@@ -28,8 +29,7 @@ using namespace brainshift::testing;
 
 namespace
 {
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double Radius = 15.0; // mm, of a ball of tissue
+constexpr double BallRadius = 15.0; // mm, of a ball of tissue
 
 double trace(vtkPointSet* set, vtkIdType point)
 {
@@ -68,7 +68,10 @@ protected:
   vtkNew<vtkFreeFormDeformation> Bend;
   vtkNew<vtkTraceDistance> Filter;
 
-  double depth(const glm::dvec3& world) const { return Radius - glm::length(world - this->Middle); }
+  double depth(const glm::dvec3& world) const
+  {
+    return BallRadius - glm::length(world - this->Middle);
+  }
 
   vtkSmartPointer<vtkImageData> image(const std::function<double(const glm::dvec3&)>& value) const
   {
@@ -110,7 +113,7 @@ protected:
       if (glm::length(aside) > 0.1)
       {
         positions.push_back(
-          this->Middle + glm::normalize(aside) * (Radius + random.between(-6.0, 6.0)));
+          this->Middle + glm::normalize(aside) * (BallRadius + random.between(-6.0, 6.0)));
       }
     }
     return positions;
@@ -131,7 +134,7 @@ TEST_F(TraceDistance, OfAnUnbentSphereIsKnown)
 TEST_F(TraceDistance, FollowsTheBentSurface)
 {
   // Independent of triangles: the sphere in 0.1 mm samples, each put where PointMap puts it.
-  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, Radius);
+  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, BallRadius);
   setStrokes(this->Bend, { strokeAt(Tool::Stamp, top, { 1.0, 2.0, -7.0 }) });
   const PointMap map = this->map();
   std::vector<glm::dvec3> sphere;
@@ -144,7 +147,7 @@ TEST_F(TraceDistance, FollowsTheBentSurface)
     {
       const double turn = 2 * M_PI * i / around;
       sphere.push_back(map.deformedFromRest(this->Middle +
-        Radius *
+        BallRadius *
           glm::dvec3(
             std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar))));
     }
@@ -263,7 +266,7 @@ TEST(TraceHistogram, BinsAreSymmetricAboutTheCortex)
 
 TEST_F(TraceDistance, AStrokeRedoesOnlyWhatItReaches)
 {
-  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, Radius);
+  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, BallRadius);
   Stroke stroke = strokeAt(Tool::Soft, top, { 0, 0, -2.0 });
   stroke.major = 8.0;
   this->run(pointsAt(this->around(10)));
@@ -286,7 +289,7 @@ TEST_F(TraceDistance, AfterStrokesAHundredThousandPointsAreAsEvaluatedAnew)
   const auto positions = this->around(100000);
   const auto set = pointsAt(positions);
   this->run(set);
-  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, Radius);
+  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, BallRadius);
   const Stroke stamp = strokeAt(Tool::Stamp, top, { 1.0, 2.0, -7.0 });
   setStrokes(this->Bend, { stamp });
   this->Filter->Update();
@@ -333,7 +336,7 @@ TEST_F(TraceDistance, AfterStrokesAHundredThousandPointsAreAsEvaluatedAnew)
 TEST_F(TraceDistance, OtherPointsBetweenStrokesAreAsEvaluatedAnew)
 {
   auto positions = this->around(2000);
-  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, Radius);
+  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, BallRadius);
   std::vector<Stroke> strokes;
   const auto expectAsAnew = [&](const char* when) {
     const auto set = pointsAt(positions);
@@ -364,7 +367,7 @@ TEST_F(TraceDistance, OtherPointsBetweenStrokesAreAsEvaluatedAnew)
   bend(top + glm::dvec3(3, 0, 0), { -3.0, 0.0, 4.0 });
   expectAsAnew("a few");
   positions = all;
-  bend(this->Middle - glm::dvec3(0, 0, Radius), { 0.0, 2.0, 5.0 });
+  bend(this->Middle - glm::dvec3(0, 0, BallRadius), { 0.0, 2.0, 5.0 });
   expectAsAnew("all of them again, after a stroke that these did not see");
 }
 
@@ -373,8 +376,8 @@ TEST_F(TraceDistance, ACavityCountsNeitherPointsNorTissue)
   // Everything above the ball's middle is gone.
   auto cavity = this->image([&](const glm::dvec3& p) { return p.z > this->Middle.z; });
   this->Filter->SetInputData(3, cavity);
-  const glm::dvec3 above = this->Middle + glm::dvec3(0, 0, Radius + 3.0);
-  const glm::dvec3 below = this->Middle - glm::dvec3(0, 0, Radius + 3.0);
+  const glm::dvec3 above = this->Middle + glm::dvec3(0, 0, BallRadius + 3.0);
+  const glm::dvec3 below = this->Middle - glm::dvec3(0, 0, BallRadius + 3.0);
   const glm::dvec3 beside = this->Middle + glm::dvec3(0, 0, -1.5);
   vtkPointSet* traced = this->run(pointsAt({ above, below, beside }));
   EXPECT_TRUE(std::isnan(trace(traced, 0)));
@@ -382,7 +385,7 @@ TEST_F(TraceDistance, ACavityCountsNeitherPointsNorTissue)
   EXPECT_EQ(this->Filter->GetCount(), 2);
   // The mask lies where tissue is drawn: tissue pushed out of it counts again.
   setStrokes(this->Bend, { [&] {
-    Stroke stroke = strokeAt(Tool::Soft, this->Middle, { 0, 0, -Radius });
+    Stroke stroke = strokeAt(Tool::Soft, this->Middle, { 0, 0, -BallRadius });
     stroke.major = 1000.0;
     stroke.sigma = 5.0;
     return stroke;
@@ -401,8 +404,8 @@ TEST_F(TraceDistance, TheCavityOfCompareVolumesCountsAsOnesOwn)
   compare->SetInputData(
     2, this->image([&](const glm::dvec3& p) { return p.z > this->Middle.z ? 2.0 : -1.0; }));
   this->Filter->SetDeformationConnection(compare->GetOutputPort());
-  const glm::dvec3 above = this->Middle + glm::dvec3(0, 0, Radius + 3.0);
-  const glm::dvec3 below = this->Middle - glm::dvec3(0, 0, Radius + 3.0);
+  const glm::dvec3 above = this->Middle + glm::dvec3(0, 0, BallRadius + 3.0);
+  const glm::dvec3 below = this->Middle - glm::dvec3(0, 0, BallRadius + 3.0);
   vtkPointSet* traced = this->run(pointsAt({ above, below }));
   EXPECT_TRUE(std::isnan(trace(traced, 0)));
   EXPECT_NEAR(trace(traced, 1), 3.0, 0.03);
@@ -415,7 +418,7 @@ TEST_F(TraceDistance, TheCavityOfCompareVolumesCountsAsOnesOwn)
 
 TEST_F(TraceDistance, TissueIsAThresholdALabelOrASegmentation)
 {
-  const auto set = pointsAt({ this->Middle + glm::dvec3(0, 0, Radius + 4.0) });
+  const auto set = pointsAt({ this->Middle + glm::dvec3(0, 0, BallRadius + 4.0) });
   EXPECT_NEAR(trace(this->run(set), 0), 4.0, 0.03);
   this->Filter->SetThreshold(5.0);
   EXPECT_NEAR(trace(this->run(set), 0), 9.0, 0.05);
@@ -431,7 +434,7 @@ TEST_F(TraceDistance, TissueIsAThresholdALabelOrASegmentation)
   EXPECT_NEAR(trace(this->run(set), 0), 10.0, 0.6) << "a surface of labels has steps";
   this->Filter->SetLabel(9);
   EXPECT_NEAR(trace(this->run(set), 0), 4.0, 0.6);
-  EXPECT_NEAR(trace(this->run(pointsAt({ this->Middle })), 0), Radius - 6.0, 0.6)
+  EXPECT_NEAR(trace(this->run(pointsAt({ this->Middle })), 0), BallRadius - 6.0, 0.6)
     << "label 9 is a shell: its middle is outside";
 }
 
@@ -448,17 +451,18 @@ TEST_F(TraceDistance, TheSameNumberAsThresholdAndAsLabelIsAnotherSurface)
   for (int turn = 0; turn < 2; ++turn)
   {
     this->Filter->SetSurfaceBy(vtkTraceDistance::ByThreshold);
-    EXPECT_NEAR(trace(this->run(set), 0), -Radius, 1.5) << "a surface of labels has steps";
+    EXPECT_NEAR(trace(this->run(set), 0), -BallRadius, 1.5) << "a surface of labels has steps";
     this->Filter->SetSurfaceBy(vtkTraceDistance::ByLabel);
-    EXPECT_NEAR(trace(this->run(set), 0), Radius - 6.0, 1.0) << "the middle is outside";
+    EXPECT_NEAR(trace(this->run(set), 0), BallRadius - 6.0, 1.0) << "the middle is outside";
   }
 }
 
 TEST_F(TraceDistance, BlocksGiveOneSetOfNumbers)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, pointsAt({ this->Middle + glm::dvec3(0, 0, Radius + 4.0) }));
-  blocks->SetBlock(1, pointsAt({ this->Middle + glm::dvec3(0, Radius - 2.0, 0), this->Middle }));
+  blocks->SetBlock(0, pointsAt({ this->Middle + glm::dvec3(0, 0, BallRadius + 4.0) }));
+  blocks->SetBlock(
+    1, pointsAt({ this->Middle + glm::dvec3(0, BallRadius - 2.0, 0), this->Middle }));
   this->Filter->SetInputData(blocks);
   this->Filter->Update();
   auto* traced = vtkMultiBlockDataSet::SafeDownCast(this->Filter->GetOutputDataObject(0));

@@ -3,6 +3,7 @@
 // equals a reference that turns and solves plainly, and that it ends in a result or a sentence
 // whatever was measured.
 #include "Filters/Fit/Fit.h"
+#include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Testing/Cxx/Fit/DenseReference.h"
 
@@ -21,7 +22,6 @@ using namespace brainshift::testing;
 namespace
 {
 constexpr double Tolerance = 1e-6; // mm
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 const RigidPose Turned =
   turnedAround({ 10.0, -20.0, 30.0 }, rotationFrom({ 0.15, -0.1, 0.2 }), { 4.0, -6.0, 8.0 });

@@ -56,7 +56,7 @@ double meanStep(const std::vector<TraceVertex>& points)
 }
 }
 
-class TraceOrderIn : public testing::TestWithParam<std::array<float, 3>>
+class TraceOrderIn : public ::testing::TestWithParam<std::array<float, 3>>
 {
 };
 
@@ -70,7 +70,7 @@ TEST_P(TraceOrderIn, KeepsEveryPoint)
 }
 
 INSTANTIATE_TEST_SUITE_P(Boxes, TraceOrderIn,
-  testing::Values(std::array<float, 3>{ 100.0f, 80.0f, 60.0f },
+  ::testing::Values(std::array<float, 3>{ 100.0f, 80.0f, 60.0f },
     std::array<float, 3>{ 100.0f, 0.0f, 0.0f }, std::array<float, 3>{ 0.0f, 0.0f, 0.0f }));
 
 TEST(TraceOrder, PutsNeighboursSideBySide)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that the curve of the panel lies as high as its lengths in the colours of the palette,
 // marks the last point, says in words what it shows, and tells the point under the cursor.
+#include "Common/Numbers.h"
 #include "Panel/Parts/Plots.h"
 #include "Testing/Cxx/Window/PlotTesting.h"
 
@@ -11,13 +12,10 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 using namespace brainshift;
 
 namespace
 {
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 class Curve : public PlotTest<CurvePlot>
 {

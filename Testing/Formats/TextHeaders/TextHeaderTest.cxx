@@ -44,8 +44,9 @@ std::string numbers(bool big)
   return bytes;
 }
 
-const std::string Meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\nOffset = 0 0 0\n"
-                         "DimSize = 2 2 2\nElementNumberOfChannels = 3\nElementType = MET_FLOAT\n";
+const std::string MetaLines =
+  "ObjectType = Image\nNDims = 3\nBinaryData = True\nOffset = 0 0 0\n"
+  "DimSize = 2 2 2\nElementNumberOfChannels = 3\nElementType = MET_FLOAT\n";
 const std::string Nrrd =
   "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\nsizes: 3 2 2 2\n"
   "space directions: none (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\nspace origin: (0,0,0)\n";
@@ -89,7 +90,7 @@ TEST(TextHeader, FoldersAndPipesAreNoFiles)
   EXPECT_NE(problemOf([&] { readFieldFile(scratch("folder.nrrd"), field); }).find("is a folder"),
     std::string::npos);
   expectProblem(
-    "of_folder.mhd", Meta + "ElementDataFile = numbers\n", "numbers, which is a folder");
+    "of_folder.mhd", MetaLines + "ElementDataFile = numbers\n", "numbers, which is a folder");
   expectProblem(
     "of_folder.nhdr", Nrrd + "endian: little\ndata file: numbers\n", "which is a folder");
 #ifndef _WIN32
@@ -98,7 +99,7 @@ TEST(TextHeader, FoldersAndPipesAreNoFiles)
   EXPECT_FALSE(isFieldFile(scratch("pipe.mha")));
   EXPECT_NE(problemOf([&] { readFieldFile(scratch("pipe.mha"), field); }).find("is a pipe"),
     std::string::npos);
-  expectProblem("of_pipe.mhd", Meta + "ElementDataFile = pipe.mha\n", "which is a pipe");
+  expectProblem("of_pipe.mhd", MetaLines + "ElementDataFile = pipe.mha\n", "which is a pipe");
 #endif
 }
 
@@ -111,8 +112,9 @@ TEST(TextHeader, LinesAndBytesBeforeTheNumbersAreSkipped)
   const std::string atEnd = Nrrd + "endian: little\nbyte skip: -1\n\nanything";
   ASSERT_EQ(problemOf("end.nrrd", atEnd + numbers(false), field), "");
   EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
-  ASSERT_EQ(problemOf("end.mha",
-              Meta + "HeaderSize = -1\nElementDataFile = LOCAL\nanything" + numbers(false), field),
+  ASSERT_EQ(
+    problemOf("end.mha",
+      MetaLines + "HeaderSize = -1\nElementDataFile = LOCAL\nanything" + numbers(false), field),
     "");
   EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
   expectProblem("few.nrrd", Nrrd + "endian: little\nline skip: 99\n\n" + numbers(false),
@@ -128,14 +130,14 @@ TEST(TextHeader, TheSizeOfAVoxelIsItsSpacingIfThereIsNoOther)
 {
   const std::string end = "ElementDataFile = LOCAL\n" + numbers(false);
   DirectedField field;
-  ASSERT_EQ(problemOf("size.mha", Meta + "ElementSize = 2 3 4\n" + end, field), "");
+  ASSERT_EQ(problemOf("size.mha", MetaLines + "ElementSize = 2 3 4\n" + end, field), "");
   EXPECT_EQ(field.grid.spacing, glm::dvec3(2, 3, 4));
   const std::string both = "ElementSize = 2 3 4\nElementSpacing = 5 6 7\n";
-  ASSERT_EQ(problemOf("both.mha", Meta + both + end, field), "");
+  ASSERT_EQ(problemOf("both.mha", MetaLines + both + end, field), "");
   EXPECT_EQ(field.grid.spacing, glm::dvec3(5, 6, 7));
-  ASSERT_EQ(problemOf("none.mha", Meta + end, field), "");
+  ASSERT_EQ(problemOf("none.mha", MetaLines + end, field), "");
   EXPECT_EQ(field.grid.spacing, glm::dvec3(1));
-  expectProblem("two.mha", Meta + "ElementSpacing = 5 6\n" + end, "has the spacing 5 6");
+  expectProblem("two.mha", MetaLines + "ElementSpacing = 5 6\n" + end, "has the spacing 5 6");
 }
 
 // Nobody can read bytes that are no letters, nor a megabyte of them.
@@ -148,7 +150,7 @@ TEST(TextHeader, HalfOfANumberIsNoNumber)
       "ElementSpacing = 1.5.5 1\n", "ElementSpacing = 1 1 1e20\n", "Comment = a\x01b\n" })
   {
     const bool isOffset = broken[0] == 'O';
-    std::string header = Meta;
+    std::string header = MetaLines;
     header.replace(header.find("Offset"), 15, isOffset ? broken : "Offset = 0 0 0\n");
     header += isOffset ? "" : broken;
     header += end;
@@ -207,14 +209,14 @@ TEST(TextHeader, WordsSpelledOtherwiseAreReadOrRefused)
 {
   const std::string end = "ElementDataFile = LOCAL\n" + numbers(true);
   DirectedField field;
-  ASSERT_EQ(problemOf("upper.mha", Meta + "BinaryDataByteOrderMSB = TRUE\n" + end, field), "");
+  ASSERT_EQ(problemOf("upper.mha", MetaLines + "BinaryDataByteOrderMSB = TRUE\n" + end, field), "");
   EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
   ASSERT_EQ(problemOf("big.nrrd", Nrrd + "endian: big\n\n" + numbers(true), field), "");
   EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
   ASSERT_EQ(problemOf("Big.nrrd", Nrrd + "endian: Big\n\n" + numbers(true), field), "");
   EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
   expectProblem("no_endian.nrrd", Nrrd + "\n" + numbers(true), "must be little or big");
-  std::string half = Meta;
+  std::string half = MetaLines;
   half.replace(half.find("2 2 2"), 5, "2.5 2 2");
   expectProblem("half.mha", half + end, "a whole number from 1 to 2147483647");
 }
@@ -239,5 +241,6 @@ TEST(TextHeader, WordsThatChangeVectorsAreRefusedByName)
   expectProblem(
     "words.nrrd", end("spacing: 1 1 1 1"), "field 'spacing', which NRRD does not define");
   expectProblem("words.mha",
-    Meta + "DistanceUnits = um\nElementDataFile = LOCAL\n" + numbers(false), "DistanceUnits um");
+    MetaLines + "DistanceUnits = um\nElementDataFile = LOCAL\n" + numbers(false),
+    "DistanceUnits um");
 }

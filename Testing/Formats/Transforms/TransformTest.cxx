@@ -58,7 +58,7 @@ SplineLink randomSpline()
   return spline;
 }
 
-std::string written(const std::string& name, const std::string& text)
+std::string writtenFile(const std::string& name, const std::string& text)
 {
   const std::string path = std::string(BRAINSHIFT_TEST_TEMP) + "/" + name;
   std::ofstream(path, std::ios::binary) << text;
@@ -67,7 +67,8 @@ std::string written(const std::string& name, const std::string& text)
 
 std::string problemOf(const std::string& name, const std::string& text)
 {
-  return brainshift::problemOf([&] { readTransformFiles({ { written(name, text) }, "", "" }); });
+  return brainshift::problemOf(
+    [&] { readTransformFiles({ { writtenFile(name, text) }, "", "" }); });
 }
 }
 
@@ -176,7 +177,7 @@ TEST(TransformFile, DamagedFilesEndInASentence)
   least[0] = '\x80';
   EXPECT_TRUE(says(problemOf("t.mat", least), "is no MATLAB file"));
   EXPECT_TRUE(says(problemOf("t.h5", "\x89HDF\r\n\x1a\n damaged"), "is damaged"));
-  EXPECT_FALSE(isTransformFile(written("t.csv", "x,y,z\n1,2,3\n")));
+  EXPECT_FALSE(isTransformFile(writtenFile("t.csv", "x,y,z\n1,2,3\n")));
   EXPECT_FALSE(isTransformFile(std::string(BRAINSHIFT_TEST_TEMP)));
 }
 
@@ -185,7 +186,7 @@ TEST(TransformReader, AnswersWithoutAPipelineAndSaysWhatIsWrong)
   vtkNew<vtkTransformReader> reader;
   EXPECT_EQ(reader->GetProblem(), "FileName is empty; it must name a transform");
   EXPECT_EQ(reader->GetKind(), "");
-  reader->SetFileName(written("t.txt", "1 0 0 4  0 1 0 5  0 0 1 6  0 0 0 1"));
+  reader->SetFileName(writtenFile("t.txt", "1 0 0 4  0 1 0 5  0 0 1 6  0 0 0 1"));
   EXPECT_NE(reader->GetProblem().find("name the program"), std::string::npos);
   reader->SetMatrixProgram(vtkTransformReader::NiftyReg);
   EXPECT_EQ(reader->GetProblem(), "");
@@ -232,7 +233,7 @@ TEST(TransformPoints, MovesPointsAlongTheMapAndBackAndKeepsTheirArrays)
 {
   vtkNew<vtkTransformReader> reader;
   reader->SetWorld(vtkTransformReader::LPS);
-  reader->SetFileName(written("shift.tfm", Shift));
+  reader->SetFileName(writtenFile("shift.tfm", Shift));
   vtkNew<vtkTransformPoints> filter;
   filter->SetInputData(somePoints());
   filter->SetTransform(reader);
@@ -246,7 +247,7 @@ TEST(TransformPoints, MovesPointsAlongTheMapAndBackAndKeepsTheirArrays)
     EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Number")->GetTuple1(3), 3.0);
   }
   // Another file of the same reader moves them anew.
-  reader->SetFileName(written("identity.tfm",
+  reader->SetFileName(writtenFile("identity.tfm",
     "#Insight Transform File V1.0\n"
     "Transform: TranslationTransform_double_3_3\n"
     "Parameters: 0 0 0\nFixedParameters:\n"));
@@ -265,7 +266,7 @@ TEST(TransformPoints, SaysWhatIsWrong)
   filter->Update();
   EXPECT_NE(heard.take().find("Transform is not set"), std::string::npos);
   vtkNew<vtkTransformReader> reader;
-  reader->SetFileName(written("bad.tfm", "hello"));
+  reader->SetFileName(writtenFile("bad.tfm", "hello"));
   filter->SetTransform(reader);
   filter->Update();
   EXPECT_NE(heard.take().find("is no transform"), std::string::npos);
