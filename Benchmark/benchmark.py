@@ -5,6 +5,7 @@
                        [--rounds 5] [--seconds 15]
     ./brainshift bench --volumes [FILE ...]  floors on four volumes (floors.py), and on real files
     ./brainshift bench --large [X Y Z]   a store that is drawn in bricks (large.py)
+    ./brainshift bench --ranks [N ...]   what each of several ranks holds and draws (ranks.py)
     ./brainshift bench --ultrasound      errors of Refine by ultrasound instead (ultrasound.py)
 
 It prints tables and writes bench-output/benchmark.json and a plot. The last table shows the floors
@@ -49,6 +50,7 @@ from fits import measure_fits  # noqa: E402
 from floors import measure_floors  # noqa: E402
 from large import measure_large  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
+from ranks import measure_ranks  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OCCLUSION, OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
 from session import measure_session  # noqa: E402
@@ -284,6 +286,11 @@ def parse(arguments):
                         help="only the floors on four made volumes, and on these files")
     parser.add_argument("--large", type=int, nargs="*", metavar="N",
                         help="only a store of so many voxels, drawn in bricks (1024 1024 512)")
+    parser.add_argument("--ranks", type=int, nargs="*", metavar="N",
+                        help="only what several MPI ranks hold and draw (1 2 4 8)")
+    parser.add_argument("--ranks-voxels", type=int, nargs=3, metavar="N", default=[512] * 3,
+                        help="voxels of the volume that they draw (512 512 512)")
+    parser.add_argument("--ranks-bits", type=int, choices=(8, 16), default=8)
     parser.add_argument("--reference", type=int, nargs=3, metavar="N", default=REFERENCE,
                         help="voxels of the reference case (256 256 150)")
     parser.add_argument("--sizes", type=int, nargs="*", metavar="N",
@@ -356,6 +363,10 @@ def another_lattice(benchmark, window):
 
 def main(arguments=None):
     options = parse(arguments)
+    if options.ranks is not None:
+        options.ranks = options.ranks or [1, 2, 4, 8]
+        measure_ranks(options)
+        return
     if options.large is not None:
         measure_large(tuple(options.large), options)
         return

@@ -47,12 +47,12 @@ def slabs(size):
         yield (voxels + noise.integers(0, 16, voxels.shape)).astype("uint16")
 
 
-def write_file(name, size, spacing):
-    """As NIfTI-1, of 16 bits."""
+def write_file(name, size, spacing, number=2):
+    """As NIfTI-1, of 1 or 2 bytes a number."""
     begin = bytearray(352)
     struct.pack_into("<i", begin, 0, 348)
     struct.pack_into("<8h", begin, 40, 3, *size, 1, 1, 1, 1)
-    struct.pack_into("<2h", begin, 70, 512, 16)                  # uint16
+    struct.pack_into("<2h", begin, 70, 512 if number == 2 else 2, 8 * number)  # without a sign
     struct.pack_into("<8f", begin, 76, 1, *spacing, 0, 0, 0, 0)
     struct.pack_into("<3f", begin, 108, 352, 1, 0)               # begin of the voxels, slope
     begin[123] = 2                                               # mm
@@ -64,7 +64,7 @@ def write_file(name, size, spacing):
     with open(name, "wb") as file:
         file.write(begin)
         for slab in slabs(size):
-            file.write(slab.tobytes())
+            file.write((slab if number == 2 else (slab >> 4).astype("uint8")).tobytes())
 
 
 def small_head(size, spacing):
@@ -79,7 +79,7 @@ def small_head(size, spacing):
 class Head:
     """A bent head in a view of its own."""
 
-    def __init__(self, source, size, spacing):
+    def __init__(self, source, size, spacing, scale=16):
         self.middle = numpy.array(size) * spacing / 2
         self.edits = self.turns = 0
         self.bent = simple.FreeFormDeformation(Input=source, LatticeDimensions=[LATTICE] * 3)
@@ -99,9 +99,11 @@ class Head:
         self.display.SetScalarBarVisibility(view, False)
         colors = simple.GetColorTransferFunction(ARRAY, self.display, separate=True)
         colors.ColorSpace = "RGB"
-        colors.RGBPoints = [16 * value if i % 4 == 0 else value for i, value in enumerate(COLORS)]
-        opacities = simple.GetOpacityTransferFunction(ARRAY, self.display, separate=True)
-        opacities.Points = [0, 0, 0.5, 0, 16 * AIR, 0, 0.5, 0, 48 * AIR, 1, 0.5, 0, 4096, 1, 0.5, 0]
+        colors.RGBPoints = [scale * value if i % 4 == 0 else value
+                            for i, value in enumerate(COLORS)]
+        self.opacities = simple.GetOpacityTransferFunction(ARRAY, self.display, separate=True)
+        self.opacities.Points = [0, 0, 0.5, 0, scale * AIR, 0, 0.5, 0, 3 * scale * AIR, 1, 0.5, 0,
+                                 256 * scale, 1, 0.5, 0]
         self.display.MemoryLimit = LIMIT_MIB
 
     def edit(self):

@@ -118,6 +118,8 @@ class Report:
             plot_volumes(self.results["targets"], picture)
             print(picture)
             return
+        if not self.results["groups"]:
+            return
         picture = os.path.join(folder, "time-against-size.png")
         print(picture if plot(self.results["groups"], picture)
               else "No plot: only one size was measured")

@@ -1,6 +1,6 @@
-# With CMAKE_UNITY_BUILD the files of a folder are compiled together, up to eight as if they were one:
-# most of a first build is the reading of VTK's and Qt's headers. So what a file defines for itself
-# alone has a name that no other file of its folder has.
+# With CMAKE_UNITY_BUILD the files of a folder are compiled together, up to eight as if they were
+# one: most of a first build is the reading of VTK's and Qt's headers. So what a file defines for
+# itself alone has a name that no other file of its folder has.
 
 function (brainshift_group_files target)
   get_target_property(sources ${target} SOURCES)

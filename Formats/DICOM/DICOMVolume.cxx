@@ -154,6 +154,7 @@ public:
   std::string noun() const override { return "DICOM series"; }
   void readHeader(const std::string& fileName, VolumeHeader& header) override;
   double storedBytes(const VolumeHeader& header) const override;
+  Loads loads() const override;
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
   // The choices are the series of a folder.
@@ -175,8 +176,8 @@ private:
   // Chooses the type of the numbers.
   void decideType(VolumeHeader& header);
   // Fills an image with one volume; drops it if `progress` says stop.
-  void readImages(
-    std::size_t volume, const Progress& progress, vtkSmartPointer<vtkImageData>& image) const;
+  void readImages(const std::vector<DICOMFrame>& frames, const Progress& progress,
+    vtkSmartPointer<vtkImageData>& image) const;
 
   std::string Series;
   SliceResampling Resampling = SliceResampling::WhereNeeded;
@@ -442,10 +443,20 @@ double DICOMVolume::storedBytes(const VolumeHeader& header) const
     (isResampled ? VolumeFile::storedBytes(header) : 0.0);
 }
 
-void DICOMVolume::readImages(
-  std::size_t volume, const Progress& progress, vtkSmartPointer<vtkImageData>& image) const
+// A file of packed frames is unpacked as a whole, and upright slices come from all slices.
+Loads DICOMVolume::loads() const
 {
-  const std::vector<Part> parts = partsOf(this->Folder, this->Stack.volumes[volume], image);
+  const DICOMFile& file = this->Folder.files[this->Stack.volumes.front().front().file];
+  const bool isSliceAlone =
+    file.frames.size() == 1 || (file.pixels.isPlain && file.tiles == glm::ivec2(1));
+  return this->Segments || !this->Stack.resampling.slices.empty() || !isSliceAlone ? Loads::All
+                                                                                   : Loads::Slices;
+}
+
+void DICOMVolume::readImages(const std::vector<DICOMFrame>& frames, const Progress& progress,
+  vtkSmartPointer<vtkImageData>& image) const
+{
+  const std::vector<Part> parts = partsOf(this->Folder, frames, image);
   const auto count = static_cast<std::int64_t>(parts.size());
   std::vector<std::string> problems(parts.size());
   for (std::int64_t first = 0; first < count; first += PartsAtOnce)
@@ -474,16 +485,20 @@ void DICOMVolume::load(std::size_t volume, const Progress& progress, StoredVoxel
     this->Segments->load(this->Layer, progress, voxels);
     return;
   }
-  const std::vector<DICOMFrame>& frames = this->Stack.volumes[volume];
-  const DICOMFile& file = this->Folder.files[frames.front().file];
+  const std::vector<DICOMFrame>& all = this->Stack.volumes[volume];
+  const DICOMFile& file = this->Folder.files[all.front().file];
+  const bool isPart = this->loads() == Loads::Slices;
+  const int first = isPart ? voxels.wanted[4] : 0;
+  const int end = isPart ? voxels.wanted[5] + 1 : static_cast<int>(all.size());
+  const std::vector<DICOMFrame> frames(all.begin() + first, all.begin() + std::max(first, end));
   vtkSmartPointer<vtkImageData> image =
-    imageOf({ file.columns, file.rows, static_cast<int>(frames.size()) }, this->StoredType,
-      componentsOf(file.pixels));
-  this->readImages(volume, progress, image);
+    imageOf({ file.columns, file.rows, end - first }, this->StoredType, componentsOf(file.pixels));
+  this->readImages(frames, progress, image);
   if (!image)
   {
     return;
   }
+  image->SetExtent(0, file.columns - 1, 0, file.rows - 1, first, end - 1);
   voxels.image = image;
   const DICOMResampling& upright = this->Stack.resampling;
   if (!upright.slices.empty())

@@ -81,39 +81,75 @@ private:
   bool Ended = false;
 };
 
+// Reads packed bytes one after another. Throws where they are damaged or too few.
+class PackedReader
+{
+public:
+  explicit PackedReader(std::ifstream& file)
+    : Bytes(file)
+    , Unwanted(Piece)
+  {
+  }
+
+  void skip(std::uint64_t count)
+  {
+    for (std::uint64_t left = count; left > 0;)
+    {
+      const std::size_t wanted = std::min<std::uint64_t>(left, Piece);
+      this->take(this->Unwanted.data(), wanted);
+      left -= wanted;
+    }
+  }
+
+  // False if `fractionDone` said stop.
+  bool read(char* to, std::uint64_t count, const FractionDone& fractionDone)
+  {
+    for (std::uint64_t done = 0; done < count;)
+    {
+      const std::size_t wanted = std::min<std::uint64_t>(count - done, Piece);
+      this->take(to + done, wanted);
+      done += wanted;
+      if (!fractionDone(static_cast<double>(done) / static_cast<double>(count)))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // What follows the numbers is no more than a piece, and their checksum.
+  void end()
+  {
+    this->Bytes.unpack(this->Unwanted.data(), this->Unwanted.size());
+    if (!this->Bytes.isGood())
+    {
+      throw Problem(Damaged);
+    }
+  }
+
+private:
+  static constexpr const char* Damaged = "has packed numbers that are damaged or too few";
+
+  void take(char* to, std::size_t count)
+  {
+    if (this->Bytes.unpack(to, count) < count)
+    {
+      throw Problem(Damaged);
+    }
+  }
+
+  Unpacker Bytes;
+  std::vector<char> Unwanted;
+};
+
 void unpackAll(std::ifstream& file, const StoredBytes& from, char* to, std::size_t count,
   const FractionDone& fractionDone)
 {
-  const std::string damaged = "has packed numbers that are damaged or too few";
-  Unpacker unpacker(file);
-  std::vector<char> unwanted(std::min<std::uint64_t>(from.unpackedSkip, Piece));
-  for (std::uint64_t left = from.unpackedSkip; left > 0;)
+  PackedReader reader(file);
+  reader.skip(from.unpackedSkip);
+  if (reader.read(to, count, fractionDone))
   {
-    const std::size_t wanted = std::min<std::uint64_t>(left, Piece);
-    if (unpacker.unpack(unwanted.data(), wanted) < wanted)
-    {
-      throw Problem(damaged);
-    }
-    left -= wanted;
-  }
-  for (std::size_t done = 0; done < count;)
-  {
-    const std::size_t wanted = std::min(count - done, Piece);
-    if (unpacker.unpack(to + done, wanted) < wanted)
-    {
-      throw Problem(damaged);
-    }
-    done += wanted;
-    if (!fractionDone(static_cast<double>(done) / static_cast<double>(count)))
-    {
-      return;
-    }
-  }
-  unwanted.resize(Piece); // what follows the numbers is no more than this, and their checksum
-  unpacker.unpack(unwanted.data(), unwanted.size());
-  if (!unpacker.isGood())
-  {
-    throw Problem(damaged);
+    reader.end();
   }
 }
 
@@ -194,45 +230,110 @@ std::size_t StoredBox::voxelCount() const
   return count;
 }
 
-// Rows that follow one another in the file, in whole slices or a whole volume, are read at once.
+namespace
+{
+// The bytes of a box in the order of the file: runs of as many bytes, such as rows. Rows that
+// follow one another, in whole slices or a whole volume, are one run.
+class BoxRuns
+{
+public:
+  explicit BoxRuns(const StoredBox& box)
+    : Box(box)
+  {
+    const bool wholeRows = this->count(0) == this->side(0);
+    const bool wholeSlices = wholeRows && this->count(1) == this->side(1);
+    this->Rows = wholeRows ? 1 : this->count(1);
+    this->Runs = (wholeSlices ? 1 : this->count(2)) * this->Rows;
+    this->Bytes = box.voxelCount() / this->Runs * box.bytes;
+  }
+
+  std::uint64_t runs() const { return this->Runs; }
+  std::uint64_t bytes() const { return this->Bytes; } // of a run
+
+  // Bytes of the volume before a run.
+  std::uint64_t before(std::uint64_t run) const
+  {
+    const std::uint64_t z = this->first(2) + run / this->Rows;
+    const std::uint64_t y = this->first(1) + run % this->Rows;
+    return ((z * this->side(1) + y) * this->side(0) + this->first(0)) * this->Box.bytes;
+  }
+
+  // Whether the last run ends where the volume does.
+  bool reachEnd() const
+  {
+    const std::uint64_t all = this->side(0) * this->side(1) * this->side(2) * this->Box.bytes;
+    return this->before(this->Runs - 1) + this->Bytes == all;
+  }
+
+private:
+  std::uint64_t side(int axis) const { return this->Box.dimensions[axis]; }
+  std::uint64_t first(int axis) const { return this->Box.extent[2 * axis]; }
+  std::uint64_t count(int axis) const { return this->Box.extent[2 * axis + 1] + 1 - first(axis); }
+
+  const StoredBox& Box;
+  std::uint64_t Rows = 1; // of runs in a slice
+  std::uint64_t Runs = 0;
+  std::uint64_t Bytes = 0;
+};
+
+void unpackBox(std::ifstream& file, const StoredBytes& from, const BoxRuns& box, char* to,
+  const std::function<FractionDone(std::uint64_t run)>& doneOf)
+{
+  PackedReader reader(file);
+  reader.skip(from.unpackedSkip);
+  std::uint64_t at = 0;
+  for (std::uint64_t run = 0; run < box.runs(); ++run)
+  {
+    reader.skip(box.before(run) - at);
+    if (!reader.read(to + run * box.bytes(), box.bytes(), doneOf(run)))
+    {
+      return;
+    }
+    at = box.before(run) + box.bytes();
+  }
+  if (box.reachEnd())
+  {
+    reader.end();
+  }
+}
+}
+
 void readBox(
   const StoredBytes& from, const StoredBox& box, char* to, const FractionDone& fractionDone)
 {
-  const auto side = [&](int axis) { return static_cast<std::uint64_t>(box.dimensions[axis]); };
-  const auto first = [&](int axis) { return static_cast<std::uint64_t>(box.extent[2 * axis]); };
-  const auto count = [&](int axis) {
-    return static_cast<std::uint64_t>(box.extent[2 * axis + 1]) + 1 - first(axis);
-  };
   if (box.voxelCount() == 0) // a rank without a part
   {
     return;
   }
-  const bool wholeRows = count(0) == side(0);
-  const bool wholeSlices = wholeRows && count(1) == side(1);
-  const std::uint64_t slices = wholeSlices ? 1 : count(2);
-  const std::uint64_t rows = wholeRows ? 1 : count(1);
-  const std::uint64_t bytes = box.voxelCount() / (slices * rows) * box.bytes; // of a run
+  const BoxRuns runs(box);
   std::ifstream file;
-  file.rdbuf()->pubsetbuf(nullptr, 0); // it would read more than a short row
+  if (!from.isPacked)
+  {
+    file.rdbuf()->pubsetbuf(nullptr, 0); // it would read more than a short row
+  }
   file.open(from.fileName, std::ios::binary);
   if (!file)
   {
     throw Problem("cannot be opened");
   }
-  std::uint64_t run = 0;
   bool stopped = false;
-  for (; run < slices * rows && !stopped; ++run)
-  {
-    const std::uint64_t z = first(2) + run / rows;
-    const std::uint64_t y = first(1) + run % rows;
-    const std::uint64_t before = ((z * side(1) + y) * side(0) + first(0)) * box.bytes;
-    file.seekg(static_cast<std::streamoff>(from.offset + before));
-    readAll(file, to + run * bytes, bytes, [&](double fraction) {
-      const double done =
-        (static_cast<double>(run) + fraction) / static_cast<double>(slices * rows);
-      stopped = !fractionDone(done);
+  const auto doneOf = [&](std::uint64_t run) {
+    return [&, run](double fraction) {
+      stopped =
+        !fractionDone((static_cast<double>(run) + fraction) / static_cast<double>(runs.runs()));
       return !stopped;
-    });
+    };
+  };
+  if (from.isPacked)
+  {
+    file.seekg(static_cast<std::streamoff>(from.offset));
+    unpackBox(file, from, runs, to, doneOf);
+    return;
+  }
+  for (std::uint64_t run = 0; run < runs.runs() && !stopped; ++run)
+  {
+    file.seekg(static_cast<std::streamoff>(from.offset + runs.before(run)));
+    readAll(file, to + run * runs.bytes(), runs.bytes(), doneOf(run));
   }
 }
 

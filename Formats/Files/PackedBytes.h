@@ -56,8 +56,9 @@ struct StoredBox
 };
 
 /**
- * Fills `to` with these voxels and reads no other ones, or throws the end of a sentence. `from`:
- * the first of all voxels, not packed. It returns early if `fractionDone` says stop.
+ * Fills `to` with these voxels, or throws the end of a sentence. `from`: the first of all voxels.
+ * No other ones are read; those before packed ones are unpacked and dropped. It returns early if
+ * `fractionDone` says stop.
  */
 void readBox(
   const StoredBytes& from, const StoredBox& box, char* to, const FractionDone& fractionDone);

@@ -178,7 +178,7 @@ void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 
 double MGHVolume::storedBytes(const VolumeHeader& header) const
 {
-  const int frames = this->readsParts() ? 1 : this->Frames;
+  const int frames = this->loads() == Loads::Part ? 1 : this->Frames;
   return this->Numbers ? 0.0 : frames * VolumeFile::storedBytes(header);
 }
 
@@ -206,7 +206,7 @@ void MGHVolume::loadPart(std::size_t volume, const Progress& progress, StoredVox
 
 void MGHVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
-  if (this->readsParts())
+  if (this->loads() == Loads::Part)
   {
     this->loadPart(volume, progress, voxels);
     return;

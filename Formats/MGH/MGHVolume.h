@@ -24,7 +24,11 @@ public:
   std::string noun() const override { return "FreeSurfer volume"; }
   void readHeader(const std::string& fileName, VolumeHeader& header) override;
   double storedBytes(const VolumeHeader& header) const override;
-  bool readsParts() const override { return !this->From.isPacked; }
+  Loads loads() const override
+  {
+    return this->From.isPacked && this->Frames > 1 ? Loads::All : Loads::Part;
+  }
+  bool readsNothingElse() const override { return !this->From.isPacked; }
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
 private:

@@ -382,15 +382,16 @@ double NIFTIVolume::storedBytes(const VolumeHeader& header) const
   return isLoaded ? 0.0 : this->Volumes * VolumeFile::storedBytes(header);
 }
 
-bool NIFTIVolume::readsParts() const
+Loads NIFTIVolume::loads() const
 {
-  return this->Volumes == 1 && this->Voxels->GetNumberOfScalarComponents() == 1;
+  return this->Volumes == 1 && this->Voxels->GetNumberOfScalarComponents() == 1 ? Loads::Part
+                                                                                : Loads::All;
 }
 
 void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels)
 {
   this->Error.clear();
-  if (this->readsParts())
+  if (this->loads() == Loads::Part)
   {
     // VTK takes the slices of the extent as the file numbers them, and reverses these.
     std::array<int, 6> extent = voxels.wanted;
@@ -415,7 +416,7 @@ void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels
     static_cast<int>(volume) * (read->GetNumberOfScalarComponents() / this->Volumes);
   voxels.image = vtkSmartPointer<vtkImageData>::New();
   voxels.image->ShallowCopy(read);
-  if (this->readsParts())
+  if (this->loads() == Loads::Part)
   {
     voxels.image->SetExtent(voxels.wanted.data());
   }

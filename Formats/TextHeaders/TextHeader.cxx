@@ -498,9 +498,9 @@ void readNumbers(const TextHeader& header, char* to, const FractionDone& fractio
   }
 }
 
-bool hasPlainNumbers(const TextHeader& header)
+bool hasNumbersInOneFile(const TextHeader& header)
 {
-  return header.encoding == Encoding::Raw && header.dataFiles.size() == 1;
+  return header.encoding != Encoding::Text && header.dataFiles.size() == 1;
 }
 
 void readNumbers(const TextHeader& header, std::uint64_t skip, const StoredBox& box, char* to,
@@ -509,7 +509,7 @@ void readNumbers(const TextHeader& header, std::uint64_t skip, const StoredBox& 
   const std::string& dataFile = header.dataFiles.front();
   onDataFile(header, dataFile, [&] {
     StoredBytes from = locate(header, dataFile);
-    from.offset += skip;
+    (from.isPacked ? from.unpackedSkip : from.offset) += skip;
     readBox(from, box, to, fractionDone);
   });
   const auto size = static_cast<std::size_t>(vtkDataArray::GetDataTypeSize(header.numberType));

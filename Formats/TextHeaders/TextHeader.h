@@ -168,12 +168,12 @@ void warnOfSurplus(TextHeader& header);
  */
 void readNumbers(const TextHeader& header, char* to, const FractionDone& fractionDone);
 
-/** Whether all numbers are in one file as they are, so that some can be read without the others. */
-bool hasPlainNumbers(const TextHeader& header);
+/** Whether all numbers are in one file, and not as text, so that a box of voxels can be read. */
+bool hasNumbersInOneFile(const TextHeader& header);
 
 /**
- * The same for a box of voxels, of a header with plain numbers. `skip`: bytes of numbers before the
- * first of the voxels.
+ * The same for a box of voxels, of a header with numbers in one file. `skip`: bytes of numbers
+ * before the first of the voxels.
  */
 void readNumbers(const TextHeader& header, std::uint64_t skip, const StoredBox& box, char* to,
   const FractionDone& fractionDone);

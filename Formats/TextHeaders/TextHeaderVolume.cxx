@@ -296,7 +296,17 @@ public:
   void readHeader(const std::string& fileName, VolumeHeader& header) override;
   double storedBytes(const VolumeHeader& header) const override;
   // A series whose times are side by side in the file is read as a whole.
-  bool readsParts() const override { return hasPlainNumbers(this->Stored) && !this->TupleIsTime; }
+  Loads loads() const override
+  {
+    const bool hasPart = hasNumbersInOneFile(this->Stored) && !this->TupleIsTime &&
+      (this->Steps == 1 || this->readsNothingElse());
+    return hasPart ? Loads::Part : Loads::All;
+  }
+  bool readsNothingElse() const override
+  {
+    return hasNumbersInOneFile(this->Stored) && !this->TupleIsTime &&
+      this->Stored.encoding == Encoding::Raw;
+  }
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
   // Which layer of a segmentation the next readHeader takes: one of the choices, or its number.
@@ -485,7 +495,7 @@ void TextHeaderVolume::takeSegments(VolumeHeader& header)
 
 double TextHeaderVolume::storedBytes(const VolumeHeader&) const
 {
-  const double steps = this->readsParts() ? static_cast<double>(this->Steps) : 1.0;
+  const double steps = this->loads() == Loads::Part ? static_cast<double>(this->Steps) : 1.0;
   return this->Numbers ? 0.0 : this->Stored.dataBytes() / steps;
 }
 
@@ -531,7 +541,7 @@ bool TextHeaderVolume::readAll(const Progress& progress)
 
 void TextHeaderVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
-  if (this->readsParts())
+  if (this->loads() == Loads::Part)
   {
     this->loadPart(volume, progress, voxels);
     return;

@@ -236,12 +236,15 @@ void PlacedVolume::requireMemory(const int extent[6]) const
   const glm::ivec3& size = this->Geometry.grid.dimensions;
   double shown = static_cast<double>(this->Header.components) *
     vtkDataArray::GetDataTypeSize(this->scalarType());
+  const std::array<int, 6> wanted = extentInFile(extent, this->Geometry);
+  const Loads loads = this->File->loads();
   double part = 1.0; // of all voxels
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double count = extent[2 * axis + 1] - extent[2 * axis] + 1.0;
+    const double count = wanted[2 * axis + 1] - wanted[2 * axis] + 1.0;
     shown *= count;
-    part *= this->File->readsParts() ? count / size[axis] : 1.0;
+    const bool isPart = loads == Loads::Part || (loads == Loads::Slices && axis == 2);
+    part *= isPart ? count / this->Header.dimensions[axis] : 1.0;
   }
   requireHostMemory(std::to_string(this->Header.times.size()) + " volumes of " +
       sizeText(glm::dvec3(size)) + " voxels",

@@ -104,6 +104,14 @@ struct PyramidChoice
 /** Receives the fraction that is done, 0 to 1. Returns false if the work is to stop. */
 using Progress = std::function<bool(double fraction)>;
 
+/** What is loaded of a volume of which a part is wanted. */
+enum class Loads
+{
+  All,    ///< all voxels
+  Slices, ///< the slices of the part, along the file's last axis
+  Part    ///< the part
+};
+
 /** One file, or one series of files, at a time: first its header, then its voxels. */
 class VTKBRAINSHIFTFORMATS_EXPORT VolumeFile
 {
@@ -125,8 +133,14 @@ public:
   /** Bytes that `load` takes beside the output. 0 if the voxels are in memory already. */
   virtual double storedBytes(const VolumeHeader& header) const;
 
-  /** Whether `load` takes memory only for the part that is wanted. Default: false. */
-  virtual bool readsParts() const { return false; }
+  /** What `load` takes memory for if a part is wanted. Default: all voxels. */
+  virtual Loads loads() const { return Loads::All; }
+
+  /**
+   * Whether `load` also reads the part alone. Otherwise it unpacks what lies before, so that all
+   * parts one after another take far longer than the whole. Default: unless it loads all voxels.
+   */
+  virtual bool readsNothingElse() const { return this->loads() != Loads::All; }
 
   /**
    * Reads the voxels of one of the header's times, or throws the end of a sentence. The voxels get

@@ -436,7 +436,7 @@ int vtkVolumeFileReader::readHeader(vtkInformation* output)
   }
   brainshift::announce(output, this->Stored->geometry().grid);
   output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-  brainshift::announceReadingAll(output, !this->File->readsParts());
+  brainshift::announceReadingAll(output, !this->File->readsNothingElse());
   vtkDataObject::SetPointDataActiveScalarInfo(
     output, this->Stored->scalarType(), this->Stored->header().components);
   announceTimes(output, this->Stored->header().times);

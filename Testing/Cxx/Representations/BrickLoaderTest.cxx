@@ -23,7 +23,7 @@ namespace
 {
 constexpr int Side = 64; // voxels: eight bricks, each of which needs voxels of all eight blocks
 constexpr std::size_t Blocks = 8;
-std::atomic<std::size_t> loads{ 0 };
+std::atomic<std::size_t> loaded{ 0 };
 
 class ZerosFile : public VolumeFile
 {
@@ -37,7 +37,7 @@ public:
   }
   void load(std::size_t, const Progress&, StoredVoxels& voxels) override
   {
-    if (++loads % 2 == 1) // so that another thread is done first
+    if (++loaded % 2 == 1) // so that another thread is done first
     {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
@@ -131,7 +131,7 @@ TEST_F(BrickLoaderTest, DropsBricksOfAnotherOrder)
 TEST_F(BrickLoaderTest, ThreadsShareBlocksAndKeepTheOrder)
 {
   this->waitUntilDone();
-  loads = 0;
+  loaded = 0;
   const std::vector<int> wanted{ 7, 0, 6, 1, 5, 2, 4, 3 };
   this->Loader.order(order(), wanted);
   std::vector<int> bricks;
@@ -143,5 +143,5 @@ TEST_F(BrickLoaderTest, ThreadsShareBlocksAndKeepTheOrder)
     }
   }
   EXPECT_EQ(bricks, wanted);
-  EXPECT_EQ(loads, Blocks);
+  EXPECT_EQ(loaded, Blocks);
 }

@@ -10,6 +10,7 @@ import pydicom
 from brainshift_testing import assert_says, load_plugin, messages, output, run_tests
 from dicom_testing import (AXIAL, CORONAL, OBLIQUE, SAGITTAL, assert_placed, folder, numbered,
                            places, read, read_again, scalars, write_slices)
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 load_plugin()
 
@@ -35,6 +36,25 @@ def test_any_orientation_in_any_order():
         for step in (2.5, -2.5):
             path = write_slices(folder(name), numbered(), axes=axes, step=step)
             assert_right(path)
+
+
+def test_a_part_reads_its_slices_alone():
+    """MPI ranks read so: the files of other slices are gone."""
+    slices = numbered(9)
+    for step in (2.5, -2.5):
+        path = write_slices(folder("part"), slices, step=step)
+        reader, _ = read(path)
+        whole = scalars(reader).reshape(slices.shape)
+        part = type(reader)(FileName=path).GetClientSideObject()
+        part.UpdateInformation()
+        kept = set(whole[2:5, 0, 0] // slices[0].size)
+        for index in set(range(9)) - kept:
+            os.remove(os.path.join(path, f"IM{index + 1:04}.dcm"))
+        part.UpdateExtent([1, 4, 0, 4, 2, 4])
+        image = part.GetOutputDataObject(0)
+        assert image.GetExtent() == (1, 4, 0, 4, 2, 4), image.GetExtent()
+        numbers = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(3, 5, 4)
+        assert (numbers == whole[2:5, :, 1:5]).all(), step
 
 
 def test_file_names_and_numbers_do_not_count():

@@ -8,7 +8,7 @@ import nibabel
 import numpy
 import volume_files
 from brainshift_testing import (
-    data, field, load_plugin, messages, output, run_tests, scratch, voxels)
+    assert_says, data, field, load_plugin, messages, output, run_tests, scratch, voxels)
 from volume_places import (
     LARGEST_MM, assert_has_ras_axes, assert_same_head, assert_same_places, matrix, opened, places)
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -150,6 +150,41 @@ def test_a_part_of_a_raw_file_is_read_without_the_others():
             part, read = part_of(name, proxy_name, [3, 9, 4, 20, 2, 11])
             assert (part[..., 0] == whole[2:12, 4:21, 3:10]).all(), (proxy_name, affine)
             assert read <= part.nbytes + 1024, (proxy_name, read, part.nbytes)
+
+
+PACKED = (("NRRDVolumeReader", "nrrd"), ("MHAVolumeReader", "mha"), ("MGHVolumeReader", "mgz"))
+BOXES = ([0, 24, 0, 39, 0, 30], [0, 24, 0, 39, 5, 11], [0, 24, 7, 20, 5, 5], [3, 9, 4, 20, 2, 11],
+         [24, 24, 39, 39, 30, 30])
+
+
+def packed_file(ending, numbers):
+    """A file of gzip or zlib whose voxels lie as they are shown."""
+    name = scratch(f"packed.{ending}")
+    if ending == "mgz":
+        nibabel.MGHImage(numbers, numpy.eye(4)).to_filename(name)
+        return name
+    made = (volume_files.nrrd(numbers, numpy.eye(4), encoding="gzip") if ending == "nrrd" else
+            volume_files.meta_image(numbers, numpy.eye(4), packed=True))
+    return volume_files.write(name, made)
+
+
+def test_a_part_of_a_packed_file_is_unpacked_without_what_follows():
+    """What lies after the part is not looked at; what lies before is unpacked and dropped."""
+    numbers = volume_files.numbered((25, 40, 31))
+    for proxy_name, ending in PACKED:
+        name = packed_file(ending, numbers)
+        for box in BOXES:
+            part, _ = part_of(name, proxy_name, box)
+            x, y, z = (slice(box[2 * i], box[2 * i + 1] + 1) for i in range(3))
+            assert (part[..., 0] == numbers[x, y, z].T).all(), (proxy_name, box)
+        with open(name, "r+b") as file:
+            file.truncate(os.path.getsize(name) * 6 // 10)
+        part, _ = part_of(name, proxy_name, BOXES[1])
+        assert (part[..., 0] == numbers[:, :, 5:12].T).all(), proxy_name
+        for box in (BOXES[0], BOXES[-1]):
+            with messages() as said:
+                opened(name, proxy_name).GetClientSideObject().UpdateExtent(box)
+            assert_says(said.text, "has packed numbers that are damaged or too few")
 
 
 def test_a_part_of_tuples_and_of_a_later_time():

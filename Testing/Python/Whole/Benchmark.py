@@ -192,4 +192,18 @@ def test_a_plot_was_drawn():
         assert file.read(8) == b"\x89PNG\r\n\x1a\n"
 
 
+def test_ranks_have_parts_and_numbers():
+    """Two ranks have less than all voxels each; a stroke within the halo sends none of them."""
+    if not os.environ.get("BRAINSHIFT_MPIEXEC"):
+        return  # CMake says that mpirun lacks
+    folder = scratch("ranks")
+    benchmark.main(["--ranks", "2", "--ranks-voxels", "64", "64", "64", "--output", folder])
+    with open(os.path.join(folder, "benchmark.json"), encoding="utf-8") as file:
+        one, two = json.load(file)["facts"]
+    assert (one["ranks"], two["ranks"]) == (1, 2)
+    assert 0.5 < two["held"]["unbent"] / one["held"]["unbent"] < 0.8, (one, two)
+    assert (two["again"]["within"], two["again"]["beyond"], one["more"]) == (0, 2, 0.0), (one, two)
+    assert two["more"] > 0.0 and min(two["draws"].values()) > 0.0, two
+
+
 run_tests(globals())

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures what each of several MPI ranks holds and computes while they draw parts of a bent head.
+
+    ./brainshift bench --ranks [N ...]   # 1 2 4 8
+                       [--ranks-voxels X Y Z]   # 512 512 512
+                       [--ranks-bits 8|16]      # 8
+
+The head of large.py lies in a raw NIfTI file, of which a rank reads the voxels of its part alone.
+Each rank gets one thread for drawing. MPI spins while it waits, so that the processor time of a
+process says nothing:
+
+- Drawing is the processor time of the thread that draws (llvmpipe's), mean of 12 directions.
+- Compositing is a picture in which every rank covers all pixels with next to no samples: the time
+  that passed, times the cores that were busy, by ranks. It holds all that is not drawing.
+
+A rank runs this file with pvbatch --sym and writes what it found beside the volume.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+
+DIRECTIONS = 12
+WITHIN, BEYOND = 8.0, 30.0  # mm of strokes: of RankHalo, 10 mm, and farther
+FAR_APART = 1000.0          # mm between two samples: next to none
+MPI = [os.environ.get("BRAINSHIFT_MPIEXEC", "mpirun"), "--oversubscribe", "--allow-run-as-root",
+       "-np"]
+
+
+def threads_that_draw():
+    """Processor time (s) of llvmpipe's threads of this process; Linux tells."""
+    total = 0
+    for thread in os.listdir("/proc/self/task"):
+        folder = f"/proc/self/task/{thread}"
+        with open(folder + "/comm", encoding="ascii") as name:
+            draws = name.read().startswith("llvmpipe")
+        if draws:
+            with open(folder + "/schedstat", encoding="ascii") as file:
+                total += int(file.read().split()[0])
+    return total / 1e9
+
+
+def most_resident():
+    """MiB that this process had at most."""
+    with open("/proc/self/status", encoding="ascii") as file:
+        return next(int(line.split()[1]) for line in file if line.startswith("VmHWM")) / 1024
+
+
+def held(head):
+    """What the display of this rank holds, and how often its voxels were sent to the card."""
+    import brainshift
+    head.draw()
+    gpu = brainshift.gpu(head.display)
+    return {"scalars": gpu["gpuScalarBytes"], "coarser": gpu["gpuVoxelsPerTexel"],
+            "uploads": brainshift.counters(head.display)["volumeUploads"]}
+
+
+def seconds_of_frames(head):
+    """Drawing, and all that passed, of a mean picture around the head."""
+    draws, wall = threads_that_draw(), time.perf_counter()
+    for _ in range(DIRECTIONS):
+        head.view.GetActiveCamera().Azimuth(360.0 / DIRECTIONS)
+        head.draw()
+    return ((threads_that_draw() - draws) / DIRECTIONS,
+            (time.perf_counter() - wall) / DIRECTIONS)
+
+
+def measured(head, maps):
+    """What one rank finds; all of them run it."""
+    import brainshift
+    found = {"unbent": held(head)}
+    middle = tuple(head.middle)  # where parts meet
+    for name, mm in (("within", WITHIN), ("beyond", BEYOND)):
+        head.bent.Strokes = brainshift.soft(middle, (-mm / 3 ** 0.5,) * 3, 50.0)
+        found[name] = held(head)
+    head.bent.Strokes = brainshift.soft(middle, (-WITHIN / 3 ** 0.5,) * 3, 50.0)
+    head.draw()
+    for name, points in maps.items():
+        head.opacities.Points = points
+        found[name] = seconds_of_frames(head)
+    head.opacities.Points = [0, 1e-4, 0.5, 0, 65535, 1e-4, 0.5, 0]
+    head.display.SampleDistance = FAR_APART
+    found["compositing"] = seconds_of_frames(head)
+    found["resident"] = most_resident()
+    return found
+
+
+def on_one_rank(file, top, size):
+    """Runs in pvbatch --sym. `top`: the largest value of the voxels; `size`: their numbers."""
+    import large
+    import numpy
+    from paraview import simple
+    from paraview.modules.vtkRemotingCore import vtkProcessModule
+    spacing = numpy.array([large.LONGEST_MM / max(size)] * 3)
+    head = large.Head(simple.OpenDataFile(file), size, spacing, (top + 1) / 256)
+    head.display.MemoryLimit = 0  # or one rank draws a large volume coarser
+    air = top * large.AIR / 255
+    maps = {"opaque": list(head.opacities.Points),
+            "translucent": [0, 0, 0.5, 0, air, 0, 0.5, 0, top, 0.1, 0.5, 0]}
+    found = measured(head, maps)
+    rank = vtkProcessModule.GetProcessModule().GetPartitionId()
+    with open(f"{file}.{rank}.json", "w", encoding="utf-8") as out:
+        json.dump(found, out)
+
+
+def runs(file, ranks, top, size):
+    """What each of the ranks found."""
+    done = subprocess.run(
+        [*MPI, str(ranks), "pvbatch", "--sym", os.path.abspath(__file__), file, str(top),
+         *map(str, size)],
+        env={**os.environ, "LP_NUM_THREADS": "1"}, capture_output=True, text=True, check=False)
+    names = [f"{file}.{rank}.json" for rank in range(ranks)]
+    if done.returncode or not all(map(os.path.exists, names)):
+        raise RuntimeError(f"{ranks} ranks failed:\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    found = []
+    for name in names:
+        with open(name, encoding="utf-8") as one:
+            found.append(json.load(one))
+        os.remove(name)
+    return found
+
+
+def tell(report, voxels, whole, found):
+    """What the rank has that holds, draws or waits most. `whole`: bytes of all voxels on a card."""
+    ranks = len(found)
+    most = {name: max(one[name]["scalars"] for one in found) / 2 ** 20
+            for name in ("unbent", "within", "beyond")}
+    again = {name: sum(one[name]["uploads"] > one[before]["uploads"] for one in found)
+             for name, before in (("within", "unbent"), ("beyond", "within"))}
+    more = sum(max(0, one["beyond"]["scalars"] - one["within"]["scalars"])
+               for one in found) * voxels / whole
+    draws = {name: 1000 * max(one[name][0] for one in found) for name in ("opaque", "translucent")}
+    rest = 1000 * found[0]["compositing"][1] * min(ranks, os.cpu_count()) / ranks
+    resident = max(one["resident"] for one in found)
+    coarser = max(one["unbent"]["coarser"] for one in found)
+    drawn = f", drawn with one voxel for {coarser}," if coarser > 1 else ""
+    report.fact(
+        f"ranks: {ranks}. The largest{drawn} has {most['unbent']:.0f} MiB of voxels on its card "
+        f"({100 * most['unbent'] * 2 ** 20 / whole:.0f} %), {resident:.0f} MiB resident at most; a "
+        f"stroke of {WITHIN:.0f} mm sends voxels to {again['within']}, one of {BEYOND:.0f} mm to "
+        f"{again['beyond']}, which then have {more / 1e6:.1f} million more; drawing "
+        f"{draws['opaque']:.0f} ms (opaque), {draws['translucent']:.0f} ms (translucent); all else "
+        f"{rest:.0f} ms",
+        ranks=ranks, held=most, again=again, more=more, draws=draws, rest=rest, resident=resident)
+
+
+def measure_ranks(options):
+    """Makes the head, runs each count of ranks, writes the results."""
+    import large
+    import numpy
+    from paraview import simple
+    from report import Report, header
+    size, number = tuple(options.ranks_voxels), options.ranks_bits // 8
+    folder = os.path.join(options.output, "ranks")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    file = os.path.join(os.path.abspath(folder), "head.nii")
+    large.write_file(file, size, [large.LONGEST_MM / max(size)] * 3, number)
+    view = simple.CreateView("RenderView")
+    simple.Render(view)
+    report = Report(header(view.GetRenderWindow()))
+    report.case("{} x {} x {} voxels of {} bits, {}x{} pixels".format(
+        *size, 8 * number, large.WINDOW, large.WINDOW))
+    top = 255 if number == 1 else 4095
+    whole = None
+    for ranks in sorted({1, *options.ranks}):
+        found = runs(file, ranks, top, size)
+        one = found[0]["unbent"]
+        whole = whole or one["scalars"] * one["coarser"]
+        tell(report, int(numpy.prod(size)), whole, found)
+    report.write(options.output)
+    shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    from scene import load_plugin
+    load_plugin()
+    on_one_rank(sys.argv[1], float(sys.argv[2]), tuple(map(int, sys.argv[3:])))
