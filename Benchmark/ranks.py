@@ -71,7 +71,7 @@ def seconds_of_frames(head):
 def measured(head, maps):
     """What one rank finds; all of them run it."""
     import brainshift
-    found = {"unbent": held(head)}
+    found = {"begin": held(head)}
     middle = tuple(head.middle)  # where parts meet
     for name, mm in (("within", WITHIN), ("beyond", BEYOND)):
         head.bent.Strokes = brainshift.soft(middle, (-mm / 3 ** 0.5,) * 3, 50.0)
@@ -96,7 +96,7 @@ def on_one_rank(file, top, size):
     from paraview.modules.vtkRemotingCore import vtkProcessModule
     spacing = numpy.array([large.LONGEST_MM / max(size)] * 3)
     head = large.Head(simple.OpenDataFile(file), size, spacing, (top + 1) / 256)
-    head.display.MemoryLimit = 0  # or one rank draws a large volume coarser
+    head.display.MemoryLimit = 0  # all that the driver gives
     air = top * large.AIR / 255
     maps = {"opaque": list(head.opacities.Points),
             "translucent": [0, 0, 0.5, 0, air, 0, 0.5, 0, top, 0.1, 0.5, 0]}
@@ -127,19 +127,19 @@ def tell(report, voxels, whole, found):
     """What the rank has that holds, draws or waits most. `whole`: bytes of all voxels on a card."""
     ranks = len(found)
     most = {name: max(one[name]["scalars"] for one in found) / 2 ** 20
-            for name in ("unbent", "within", "beyond")}
+            for name in ("begin", "within", "beyond")}
     again = {name: sum(one[name]["uploads"] > one[before]["uploads"] for one in found)
-             for name, before in (("within", "unbent"), ("beyond", "within"))}
+             for name, before in (("within", "begin"), ("beyond", "within"))}
     more = sum(max(0, one["beyond"]["scalars"] - one["within"]["scalars"])
                for one in found) * voxels / whole
     draws = {name: 1000 * max(one[name][0] for one in found) for name in ("opaque", "translucent")}
     rest = 1000 * found[0]["compositing"][1] * min(ranks, os.cpu_count()) / ranks
     resident = max(one["resident"] for one in found)
-    coarser = max(one["unbent"]["coarser"] for one in found)
+    coarser = max(one["begin"]["coarser"] for one in found)
     drawn = f", drawn with one voxel for {coarser}," if coarser > 1 else ""
     report.fact(
-        f"ranks: {ranks}. The largest{drawn} has {most['unbent']:.0f} MiB of voxels on its card "
-        f"({100 * most['unbent'] * 2 ** 20 / whole:.0f} %), {resident:.0f} MiB resident at most; a "
+        f"ranks: {ranks}. The largest{drawn} has {most['begin']:.0f} MiB of voxels on its card "
+        f"({100 * most['begin'] * 2 ** 20 / whole:.0f} %), {resident:.0f} MiB resident at most; a "
         f"stroke of {WITHIN:.0f} mm sends voxels to {again['within']}, one of {BEYOND:.0f} mm to "
         f"{again['beyond']}, which then have {more / 1e6:.1f} million more; drawing "
         f"{draws['opaque']:.0f} ms (opaque), {draws['translucent']:.0f} ms (translucent); all else "
@@ -168,7 +168,7 @@ def measure_ranks(options):
     whole = None
     for ranks in sorted({1, *options.ranks}):
         found = runs(file, ranks, top, size)
-        one = found[0]["unbent"]
+        one = found[0]["begin"]
         whole = whole or one["scalars"] * one["coarser"]
         tell(report, int(numpy.prod(size)), whole, found)
     report.write(options.output)
