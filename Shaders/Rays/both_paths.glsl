@@ -40,7 +40,7 @@ Path pathOf(Ray ray)
   vec2 span = joined(own, other);
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
   span = clippedSpan(ray, span, stepMm);
-  span.x += jitter * startFraction(ivec2(gl_FragCoord.xy)) * stepMm;
+  span.x += (BehindFace + jitter * startFraction(ivec2(gl_FragCoord.xy))) * stepMm;
   path.span = span;
   path.samples = presentSamples(ray, span, stepMm);
   path.own = samplesIn(own, span);

@@ -26,7 +26,7 @@ Path pathOf(Ray ray)
   vec2 span = boxSpan(ray, spaceLow, spaceHigh);
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
   span = clippedSpan(ray, span, stepMm);
-  span.x += jitter * startFraction(ivec2(gl_FragCoord.xy)) * stepMm;
+  span.x += (BehindFace + jitter * startFraction(ivec2(gl_FragCoord.xy))) * stepMm;
   path.span = span;
   path.samples = samplesInPart(ray, span.x, presentSamples(ray, span, stepMm));
   path.moved = vec2(0.0);

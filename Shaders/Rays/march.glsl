@@ -20,6 +20,7 @@ March marchOf(vec2 ndc, float before)
   march.span = boxSpan(march.ray, spaceLow, spaceHigh);
   march.span.y = min(march.span.y, sceneDistance(march.ray, 0.5 * ndc + 0.5));
   march.span = clippedSpan(march.ray, march.span, stepMm);
+  march.span.x += BehindFace * stepMm;
   march.samples = samplesInPart(
     march.ray, march.span.x, presentSamples(march.ray, march.span, stepMm));
   march.samples.x = max(march.samples.x - before, 0.0);

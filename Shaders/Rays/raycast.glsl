@@ -19,6 +19,10 @@ const float OpaqueEnough = 254.0 / 255.0; // more would change less than one 8-b
 const float HitOpacity = 0.5;             // the eye sees a surface where a ray reaches this
 const vec4 NoHit = vec4(-1.0);
 
+// The fraction of a step after which the first sample lies. On the volume's face itself, rounding
+// would say whether a sample is inside: a face across the view would have holes.
+const float BehindFace = 1.0 / 256.0;
+
 // The fraction of the first step after which a pixel's ray starts: one of 16, ordered so that
 // neighbours differ most (Bayer, 1973).
 float startFraction(ivec2 pixel)

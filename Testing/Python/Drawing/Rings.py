@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that a flat surface shows no rings under an opacity map that rises within less than a
-# step: the depth of the first sample on a ray cannot be seen.
+# step: the depth of the first sample on a ray cannot be seen. The face of a volume has no holes.
 import numpy
 from brainshift_testing import (load_plugin, picture, run_tests, show_volume, view_along, volume)
 
@@ -53,6 +53,28 @@ def test_a_gentle_map_has_none_anyway():
     # Averages cost time, so they are taken only where rings would show.
     gentle = [0, 0, 0.5, 0, 30, 0, 0.5, 0, 70, 1, 0.5, 0, 100, 1, 0.5, 0]
     assert ripples(patch(gentle, True)) < 2.0, ripples(patch(gentle, True))
+
+
+def test_the_face_of_a_volume_has_no_holes():
+    """Else rounding would say which rays have their first sample inside. It depends on the box."""
+    fog = [0, 0, 0.5, 0, 100, 0.3, 0.5, 0]
+    numbers = numpy.random.default_rng(1)
+    for _ in range(8):
+        spacing, origin = numbers.uniform(0.5, 2, 3), numbers.uniform(-50, 50, 3)
+        slab = volume(numpy.full((4, 40, 40), 70.0, numpy.float32), origin, spacing)
+        middle = origin + spacing * (19.5, 19.5, 1.5)
+        for towards in (-1, 1):
+            view = view_along((0, 0, towards), middle, 150.0, size=160)
+            view.CameraViewAngle = 8.0 * spacing[:2].min()
+            display = show_volume(slab, view, "Deformed Volume", COLORS, fog)
+            # Each ray has 2.5 steps.
+            display.SampleDistance, display.AmbientOcclusion = 3 * spacing[2] / 2.5, 0
+            image = 255 * picture(view)
+            assert image.min() > 20, "the slab fills the picture"
+            levels = (image.max(axis=(0, 1)) - image.min(axis=(0, 1))).max()
+            print(f"  {levels:.1f} levels", flush=True)
+            assert levels < 3.0, levels
+            Delete(view)
 
 
 run_tests(globals())
