@@ -449,13 +449,17 @@ bool vtkDeformedSlicesMapper::Pick(
   return false;
 }
 
-void vtkDeformedSlicesMapper::DescribeTissue(const double deformedMm[3], TissueFacts& facts)
+void vtkDeformedSlicesMapper::DescribeTissue(
+  vtkWindow* window, const double deformedMm[3], TissueFacts& facts)
 {
   if (auto image = vtkImageData::SafeDownCast(this->GetDataSetInput()))
   {
     this->UpdateDeformation(image);
+    const Device* device = this->Internal->Devices.find(window);
     facts = factsAt(image, drawnValuesOf(this, image), this->Internal->Deformation,
-      { deformedMm[0], deformedMm[1], deformedMm[2] });
+      { deformedMm[0], deformedMm[1], deformedMm[2] }, [&](const glm::dvec3& place) {
+        return device ? device->Bricks.bricks().numberAt(window, place) : std::optional<double>();
+      });
   }
 }
 

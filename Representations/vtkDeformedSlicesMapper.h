@@ -229,9 +229,10 @@ public:
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3], double normal[3]);
 
-  /** Facts about the tissue at a position in the deformed frame: mm, before the transform of the
-   * vtkVolume. */
-  void DescribeTissue(const double deformedMm[3], brainshift::TissueFacts& facts);
+  /** Facts about the tissue at a position in the deformed frame (mm, before the transform of the
+   * vtkVolume), as `window` drew it last. */
+  void DescribeTissue(
+    vtkWindow* window, const double deformedMm[3], brainshift::TissueFacts& facts);
 
   /** Finds the rest position of tissue that is drawn at `place`, or, if `toRest` is false, the
    * drawn position of tissue that rests at `place`. Both mm, before the vtkVolume's transform. */

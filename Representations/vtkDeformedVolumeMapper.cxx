@@ -440,13 +440,17 @@ bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double p
   return true;
 }
 
-void vtkDeformedVolumeMapper::DescribeTissue(const double deformedMm[3], TissueFacts& facts)
+void vtkDeformedVolumeMapper::DescribeTissue(
+  vtkWindow* window, const double deformedMm[3], TissueFacts& facts)
 {
   if (auto image = vtkImageData::SafeDownCast(this->GetDataSetInput()))
   {
     this->UpdateDeformation(image);
+    const VolumeDevice* device = this->Internal->Devices.find(window);
     facts = factsAt(image, drawnValuesOf(this, image), this->Internal->Deformation,
-      { deformedMm[0], deformedMm[1], deformedMm[2] });
+      { deformedMm[0], deformedMm[1], deformedMm[2] }, [&](const glm::dvec3& place) {
+        return device ? device->bricks().numberAt(window, place) : std::optional<double>();
+      });
   }
 }
 

@@ -174,7 +174,9 @@ void vtkDeformedVolumeReport::FindFacts()
     double place[4];
     volumeFromWorld->MultiplyPoint(world, place);
     brainshift::TissueFacts facts;
-    mapper ? mapper->DescribeTissue(place, facts) : slices->DescribeTissue(place, facts);
+    vtkWindow* window = this->View->GetRenderWindow();
+    mapper ? mapper->DescribeTissue(window, place, facts)
+           : slices->DescribeTissue(window, place, facts);
     this->TakeFacts(facts);
     this->Facts[16] = this->DistanceAhead();
   });

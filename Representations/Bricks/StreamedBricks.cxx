@@ -445,6 +445,7 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
     this->report(gpu, read);
   }
   this->uploadPages();
+  this->Stored = textures.stored();
   bricks.pages = this->Pages;
   bricks.atlas = this->Atlas;
   bricks.voxels = glm::dvec3(this->Level->voxels);
@@ -452,6 +453,32 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
   bricks.voxelOfTextureZero = this->Level->voxelOfTextureZero;
   bricks.seed = { 7 * this->Pictures, 3 * this->Pictures };
   bricks.changes = this->Changes;
+}
+
+std::optional<double> StreamedBricks::numberAt(vtkWindow* window, const glm::dvec3& place) const
+{
+  auto drawn = vtkOpenGLRenderWindow::SafeDownCast(window);
+  if (!drawn || !this->isStreamed())
+  {
+    return std::nullopt;
+  }
+  const FineGrid& fine = *this->Level;
+  const glm::ivec3 voxel = glm::clamp(
+    glm::ivec3(glm::floor(place * fine.voxelFromTexture + fine.voxelOfTextureZero)),
+    glm::ivec3(0), fine.voxels - 1);
+  const glm::ivec3 brick = voxel / StreamedSide;
+  const glm::ivec3 bricks = fine.bricks();
+  const int slot = this->Table.slotOf((brick.z * bricks.y + brick.y) * bricks.x + brick.x);
+  if (slot == PageTable::None)
+  {
+    return std::nullopt;
+  }
+  drawn->MakeCurrent();
+  const glm::ivec3 texel = this->Table.positionOf(slot) * SlotSideVoxels + SlotBorder + voxel -
+    brick * StreamedSide;
+  const double stored = readVolume(drawn, this->Atlas, texel, glm::ivec3(1)).front().x;
+  const double number = stored * this->Stored.scale + this->Stored.shift;
+  return this->Bytes == 2 ? std::round(number) : number; // two bytes hold whole numbers
 }
 
 void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)

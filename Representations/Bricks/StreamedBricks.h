@@ -113,6 +113,10 @@ public:
   /// Whether bricks of a finer level suit what is drawn.
   bool isStreamed() const { return this->Level && this->Atlas; }
 
+  /// The number of the voxel of the finer level that is drawn at a place of the volume (texture
+  /// coordinates), which the GPU is asked for. None: its brick is not there.
+  std::optional<double> numberAt(vtkWindow* window, const glm::dvec3& place) const;
+
   /// Adds the present state to the counters. The GPU is not asked.
   void count(Counters& counters) const;
 
@@ -141,6 +145,7 @@ private:
   bool KnewGrids = false;              // at the last plan
   std::optional<FineGrid> Level;       // that is streamed now
   BrickOrder Order;
+  StoredScalar Stored; // of the numbers in the atlas
   PageTable Table;
   vtkSmartPointer<vtkTextureObject> Atlas;
   vtkSmartPointer<vtkTextureObject> Pages;

@@ -13,6 +13,11 @@ namespace brainshift
 {
 namespace
 {
+glm::dvec3 textureAt(const Grid& grid, const ValueLayout& layout, const glm::dvec3& place)
+{
+  return grid.gridFromWorld(place) * layout.textureFromGrid + layout.textureOfGridZero;
+}
+
 std::optional<double> numberAt(
   vtkDataArray* numbers, const Grid& grid, const ValueLayout& layout, const glm::dvec3& place)
 {
@@ -20,11 +25,9 @@ std::optional<double> numberAt(
   {
     return {};
   }
-  const glm::dvec3 texture =
-    grid.gridFromWorld(place) * layout.textureFromGrid + layout.textureOfGridZero;
   // A voxel is the box around its value. A ray meets the face of the volume a little before it.
   const glm::dvec3 halfVoxel = 0.5 / glm::dvec3(layout.dimensions);
-  const std::optional<long long> index = nearestValue(layout, texture, halfVoxel);
+  const std::optional<long long> index = nearestValue(layout, textureAt(grid, layout, place), halfVoxel);
   const double number = index ? numbers->GetComponent(*index, 0) : std::nan("");
   return std::isnan(number) ? std::nullopt : std::optional<double>(number);
 }
@@ -36,7 +39,7 @@ std::optional<double> numberAt(vtkDataArray* numbers, const Grid& grid, const gl
 }
 
 TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeformation& deformation,
-  const glm::dvec3& deformedMm)
+  const glm::dvec3& deformedMm, const FinerNumber& finerAt)
 {
   TissueFacts facts;
   facts.axes = worldAxesOf(image);
@@ -61,6 +64,11 @@ TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeforma
     }
   }
   facts.value = numberAt(values.scalars, values.grid, values.layout, facts.rest);
+  if (facts.value)
+  {
+    const std::optional<double> finer = finerAt(textureAt(values.grid, values.layout, facts.rest));
+    facts.value = finer ? finer : facts.value;
+  }
   const std::string own = facts.value ? labelName(image, *facts.value) : std::string();
   if (!own.empty() && facts.value.value_or(0.0) != 0.0)
   {

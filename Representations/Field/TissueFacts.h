@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -25,7 +26,9 @@ struct TissueFacts
   glm::dvec3 rest{ 0.0 };      ///< Where it was in the volume as loaded.
   bool bent = false;           ///< Whether a deformation places the tissue. Else rest = deformed.
   double volumeRatio = 1.0;    ///< Jacobian determinant of deformedFromRest. 1: size is kept.
-  std::optional<double> value; ///< Of the voxel that is nearest at rest, in the drawn array.
+  /// Of the voxel that is nearest at rest: of the drawn array, or of a finer level that is drawn
+  /// there.
+  std::optional<double> value;
   std::optional<double> reference; ///< Of the nearest voxel of a reference that is shown.
   /// Of the nearest voxel: the value, where the volume names its own values; else the label of an
   /// attached segmentation.
@@ -37,11 +40,15 @@ struct TissueFacts
   WorldAxes axes = WorldAxes::Unknown; ///< Meaning of the axes, as the data gives it.
 };
 
+/// The number of a finer level that is drawn at a place at rest (texture coordinates); none: the
+/// volume's own voxels are drawn there.
+using FinerNumber = std::function<std::optional<double>(const glm::dvec3& texture)>;
+
 /// The facts about a position in the deformed frame. An unknown number is left out: outside
 /// the volume, without a value, or of an array with several components. If the reference is shown
 /// alone, the facts are about the reference, which is not bent.
 TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeformation& deformation,
-  const glm::dvec3& deformedMm);
+  const glm::dvec3& deformedMm, const FinerNumber& finerAt);
 
 /// Maps a place (mm) of the bent volume to the same tissue at rest, or back if `toRest` is false.
 glm::dvec3 sameTissue(SceneDeformation& deformation, const glm::dvec3& place, bool toRest);

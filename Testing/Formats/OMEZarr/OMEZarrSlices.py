@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that Deformed Slices of a store that is read coarsely are drawn as finely as it is stored:
 # as slices of the finest level, read and drawn directly, in each way to interpolate, bent and not,
-# also with little memory, a chunk that is damaged, slices that move, and in two views.
+# also with little memory, a chunk that is damaged, slices that move, and in two views. The value
+# under the cursor is that of the voxel that is drawn.
 import os
 
 import numpy
 import zarr_files
 from brainshift_testing import (
     assert_says, load_plugin, messages, picture, run_tests, view_along, volume)
+from ranks_slices_testing import facts
 from slices_testing import flat_view, show_slices
 from streamed_store import (MIDDLE, bent, blurred, coarse, compare, differences, halved, lattice,
                             reader, save, store, voxels)
@@ -107,6 +109,28 @@ def test_bent_on_a_box_of_its_own():
     path = store()
     compare_slices("bent otherwise", [bent(source) for source in (
         reader(path, Level=0), blurred(), coarse(path))], 400)
+
+
+def test_the_value_under_the_cursor_is_that_of_the_drawn_voxel():
+    path = sampled_store()
+    for source in (reader(path, Level=1), bent(reader(path, Level=1))):
+        shown = Shown(source, ("Axial",))
+        shown.detail()
+        found = []
+        for x in range(20, SIZE, 23):
+            for y in range(20, SIZE, 23):
+                fact = facts(shown.display, shown.view, x, y)[7:]
+                place, known, value = numpy.array(fact[4:7]), fact[9], fact[10]
+                index = numpy.round(place).astype(int)
+                near = numpy.abs(place - index).max() > 0.49  # rounding may choose the next one
+                if known and not near:
+                    found.append((value, voxels()[tuple(index[::-1])]))
+        values, expected = numpy.transpose(found)
+        print(f"  {len(found)} places, off by at most {numpy.abs(values - expected).max():.4f}",
+              flush=True)
+        assert len(found) > 30 and numpy.array_equal(values, expected), found
+        assert len(set(values)) > 10
+        shown.close()
 
 
 def test_a_view_from_afar_needs_no_bricks():
