@@ -478,7 +478,8 @@ std::optional<double> StreamedBricks::numberAt(vtkWindow* window, const glm::dve
     brick * StreamedSide;
   const double stored = readVolume(drawn, this->Atlas, texel, glm::ivec3(1)).front().x;
   const double number = stored * this->Stored.scale + this->Stored.shift;
-  return this->Bytes == 2 ? std::round(number) : number; // two bytes hold whole numbers
+  const bool isWhole = this->Source->type != VTK_FLOAT && this->Source->type != VTK_DOUBLE;
+  return isWhole ? std::round(number) : number; // the texture holds fractions of the range
 }
 
 void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
