@@ -117,8 +117,8 @@ def test_the_value_under_the_cursor_is_that_of_the_drawn_voxel():
         shown = Shown(source, ("Axial",))
         shown.detail()
         found = []
-        for x in range(20, SIZE, 23):
-            for y in range(20, SIZE, 23):
+        for x in range(20, SIZE, 13):
+            for y in range(20, SIZE, 13):
                 fact = facts(shown.display, shown.view, x, y)[7:]
                 place, known, value = numpy.array(fact[4:7]), fact[9], fact[10]
                 index = numpy.round(place).astype(int)
