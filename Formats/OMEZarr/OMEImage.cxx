@@ -298,12 +298,16 @@ void readAxes(const Json& list, OMEImage& image)
 void takeTransformations(const Json& list, OMELevel& level, bool mustScale)
 {
   bool hasScale = false;
-  if (list.is_array() && list.size() > MostTransformations)
+  if (!list.is_array() && !list.is_null())
+  {
+    throw Problem("has the coordinateTransformations " + shownJson(list) + "; they must be a list");
+  }
+  if (list.size() > MostTransformations)
   {
     throw Problem("has " + std::to_string(list.size()) +
       " coordinateTransformations; it may have " + std::to_string(MostTransformations));
   }
-  for (const Json& entry : list.is_array() ? list : Json::array())
+  for (const Json& entry : list)
   {
     const std::string type = textIn(memberOf(entry, "type"));
     if (type == "identity")

@@ -62,7 +62,13 @@ Named namedIn(const Json& json, const std::string& what)
 {
   const Json& name = json.is_string() ? json : memberOf(json, "name");
   throwIfAny(name.is_string() ? "" : "has a " + what + " without a name: " + shownJson(json));
-  return { name.get<std::string>(), memberOf(json, "configuration") };
+  const Json& configuration = memberOf(json, "configuration");
+  if (!configuration.is_null() && !configuration.is_object())
+  {
+    throw Problem("has a " + what + " with the configuration " + shownJson(configuration) +
+      "; it must be an object");
+  }
+  return { name.get<std::string>(), configuration };
 }
 
 void requireChunk(const ZarrArray& array)

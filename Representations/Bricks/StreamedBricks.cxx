@@ -463,9 +463,9 @@ std::optional<double> StreamedBricks::numberAt(vtkWindow* window, const glm::dve
     return std::nullopt;
   }
   const FineGrid& fine = *this->Level;
-  const glm::ivec3 voxel = glm::clamp(
-    glm::ivec3(glm::floor(place * fine.voxelFromTexture + fine.voxelOfTextureZero)),
-    glm::ivec3(0), fine.voxels - 1);
+  const glm::ivec3 voxel =
+    glm::clamp(glm::ivec3(glm::floor(place * fine.voxelFromTexture + fine.voxelOfTextureZero)),
+      glm::ivec3(0), fine.voxels - 1);
   const glm::ivec3 brick = voxel / StreamedSide;
   const glm::ivec3 bricks = fine.bricks();
   const int slot = this->Table.slotOf((brick.z * bricks.y + brick.y) * bricks.x + brick.x);
@@ -474,8 +474,8 @@ std::optional<double> StreamedBricks::numberAt(vtkWindow* window, const glm::dve
     return std::nullopt;
   }
   drawn->MakeCurrent();
-  const glm::ivec3 texel = this->Table.positionOf(slot) * SlotSideVoxels + SlotBorder + voxel -
-    brick * StreamedSide;
+  const glm::ivec3 texel =
+    this->Table.positionOf(slot) * SlotSideVoxels + SlotBorder + voxel - brick * StreamedSide;
   const double stored = readVolume(drawn, this->Atlas, texel, glm::ivec3(1)).front().x;
   const double number = stored * this->Stored.scale + this->Stored.shift;
   const bool isWhole = this->Source->type != VTK_FLOAT && this->Source->type != VTK_DOUBLE;

@@ -27,7 +27,8 @@ std::optional<double> numberAt(
   }
   // A voxel is the box around its value. A ray meets the face of the volume a little before it.
   const glm::dvec3 halfVoxel = 0.5 / glm::dvec3(layout.dimensions);
-  const std::optional<long long> index = nearestValue(layout, textureAt(grid, layout, place), halfVoxel);
+  const std::optional<long long> index =
+    nearestValue(layout, textureAt(grid, layout, place), halfVoxel);
   const double number = index ? numbers->GetComponent(*index, 0) : std::nan("");
   return std::isnan(number) ? std::nullopt : std::optional<double>(number);
 }

@@ -22,10 +22,10 @@ struct SceneDeformation;
 /// Positions are mm in the volume's own axes, before the transform of the vtkVolume.
 struct TissueFacts
 {
-  glm::dvec3 deformed{ 0.0 };  ///< Where the tissue is drawn.
-  glm::dvec3 rest{ 0.0 };      ///< Where it was in the volume as loaded.
-  bool bent = false;           ///< Whether a deformation places the tissue. Else rest = deformed.
-  double volumeRatio = 1.0;    ///< Jacobian determinant of deformedFromRest. 1: size is kept.
+  glm::dvec3 deformed{ 0.0 }; ///< Where the tissue is drawn.
+  glm::dvec3 rest{ 0.0 };     ///< Where it was in the volume as loaded.
+  bool bent = false;          ///< Whether a deformation places the tissue. Else rest = deformed.
+  double volumeRatio = 1.0;   ///< Jacobian determinant of deformedFromRest. 1: size is kept.
   /// Of the voxel that is nearest at rest: of the drawn array, or of a finer level that is drawn
   /// there.
   std::optional<double> value;

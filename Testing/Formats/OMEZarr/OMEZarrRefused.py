@@ -107,8 +107,10 @@ def test_what_is_not_known():
                          ([{"name": "transpose", "configuration": {"order": [0, 1, 3]}}, little],
                           "each axis once"),
                          ([{"name": "transpose", "configuration": {"order": "F"}}, little],
-                          "transpose order")):
+                          "transpose order"),
+                         ([little, {"name": "gzip", "configuration": "big"}], "must be an object")):
         array_says(word, (("codecs",), codecs), version=3)
+    array_says("must be an object", (("chunk_key_encoding", "configuration"), 3), version=3)
 
 
 def group_says(word, *changes):
@@ -127,6 +129,9 @@ def test_metadata_of_ome():
         group_says("cannot be placed", (scale, [{"type": "scale", "scale": step}]))
     for kind in ("rotation", "affine", "", None):
         group_says("scale, translation and identity", (scale, [{"type": kind}]))
+    for other in ("../other", {}, 3, False):
+        group_says("must be a list", (scale, other))
+        group_says("must be a list", (("coordinateTransformations",), other))
     group_says("may have 16", (scale, [{"type": "identity"}] * 17))
     for version in ("0.3", "0.5", "0.6", 4, ""):
         group_says("OME-Zarr version", (("version",), version))
