@@ -74,8 +74,8 @@ def save(name, view, size):
         return stream.read()
 
 
-# Pixels of a lit picture that may differ from the volume drawn directly: where values hardly change,
-# rounding turns the light. At four of twelve steps along rays there was one, or two.
+# Pixels of a lit picture that may differ from the volume drawn directly: where values hardly
+# change, rounding turns the light. At four of twelve steps along rays there was one, or two.
 TURNED = 3
 
 

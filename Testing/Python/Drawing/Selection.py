@@ -41,7 +41,9 @@ class Scene:
         assert self.source.GetSelectionInput(0) is None, "the volume is selected"
         numbers = identifiers(self.sphere.GetSelectionInput(0))
         ClearSelection(self.sphere)
-        assert (picture(self.view) == before).all(), "selecting changed the picture"
+        # One level: other clipping planes may round otherwise.
+        changes = 255 * numpy.abs(picture(self.view) - before).max()
+        assert changes < 1.5, f"selecting changed the picture by {changes} levels"
         return numbers
 
     def selected_without_volume(self, select, place):
