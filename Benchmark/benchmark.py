@@ -46,6 +46,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import drag  # noqa: E402
 import numpy  # noqa: E402
 from comparison import measure_comparison  # noqa: E402
+from first import measure_first  # noqa: E402
 from fits import measure_fits  # noqa: E402
 from floors import measure_floors  # noqa: E402
 from large import measure_large  # noqa: E402
@@ -338,8 +339,8 @@ def reference(benchmark, windows, quick):
     benchmark.occlusion(windows[0])
     benchmark.resampling(windows[0])
     benchmark.skipping(windows[0])
-    for measure in (measure_slices, measure_comparison, measure_traces, measure_session,
-                    measure_fits):
+    for measure in (measure_first, measure_slices, measure_comparison, measure_traces,
+                    measure_session, measure_fits):
         measure(benchmark.scene, benchmark.report, benchmark.options, benchmark.about)
     if not quick:
         for opacities in OPACITIES:

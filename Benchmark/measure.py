@@ -45,14 +45,20 @@ def rendering_threads():
     return int(os.environ.get("LP_NUM_THREADS") or len(os.sched_getaffinity(0)))
 
 
+def timed(run):
+    """Milliseconds of a run: elapsed, and of all threads of this process."""
+    wall, processor = time.perf_counter(), time.process_time()
+    run()
+    return 1000.0 * (time.perf_counter() - wall), 1000.0 * (time.process_time() - processor)
+
+
 def _run(side, times=None):
     if side.prepare:
         side.prepare()
-    wall, processor = time.perf_counter(), time.process_time()
-    side.run()
+    wall, processor = timed(side.run)
     if times:
-        times.processor.append(1000.0 * (time.process_time() - processor))
-        times.wall.append(1000.0 * (time.perf_counter() - wall))
+        times.wall.append(wall)
+        times.processor.append(processor)
 
 
 def interleaved(sides, rounds, seconds):

@@ -41,6 +41,8 @@ TARGETS = {
                             small_is_good=True),
     "edit ratio": Target("edit to picture, full quality", RESLICE, "x", 15, 40),
     "drag": Target("edit to picture while dragging", "an eye", "/s", 15, 30),
+    "curve": Target("opacity curve dragged", "an eye", "/s", 15, 30),
+    "first": Target("first picture of delivered voxels", "-", "s", 1, 0.5, small_is_good=True),
     "bake": Target("bake", "vtkImageReslice, vtkBSplineTransform", "x", 5, 15),
     "field": Target("lattice to offset field, all of it", "-", "ms", 10, 3, small_is_good=True),
     "fit landmarks": Target("fit, 16 landmarks", "-", "ms", 5, 2, small_is_good=True),

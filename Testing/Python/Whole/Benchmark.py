@@ -123,6 +123,10 @@ def test_every_comparison_is_there():
     assert set(rows_of("reference rendering (two volumes), edited")) == COMPARED
     assert set(rows_of("traces, camera turns", window=WINDOWS[1])) == TRACES | ALONE
     assert set(rows_of("traces, points change", window=WINDOWS[1])) == TRACES
+    assert set(rows_of("first picture")) == {
+        "ours: all", "ours: the filter and its display", "ours: the picture",
+        "ParaView's Volume: all"}
+    assert len(rows_of("opacity curve dragged")) == 2
     assert set(rows_of("traces, distances", window=WINDOWS[1])) == {"Trace Distance after a stroke"}
     assert set(rows_of("fit")) == {"16 landmarks", "one of 30 pulls moved",
                                    "300 traces, 250 anchors", "10000 traces",
