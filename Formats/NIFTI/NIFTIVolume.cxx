@@ -382,31 +382,18 @@ double NIFTIVolume::storedBytes(const VolumeHeader& header) const
   return isLoaded ? 0.0 : this->Volumes * VolumeFile::storedBytes(header);
 }
 
-Loads NIFTIVolume::loads() const
-{
-  return this->Volumes == 1 && this->Voxels->GetNumberOfScalarComponents() == 1 ? Loads::Part
-                                                                                : Loads::All;
-}
-
 void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels)
 {
   this->Error.clear();
-  if (this->loads() == Loads::Part)
+  // VTK takes the slices of the extent as the file numbers them, and reverses these.
+  std::array<int, 6> extent = voxels.wanted;
+  if (this->reversesSlices())
   {
-    // VTK takes the slices of the extent as the file numbers them, and reverses these.
-    std::array<int, 6> extent = voxels.wanted;
-    if (this->reversesSlices())
-    {
-      const int last = this->Voxels->GetDataExtent()[5];
-      extent[4] = last - voxels.wanted[5];
-      extent[5] = last - voxels.wanted[4];
-    }
-    this->Voxels->UpdateExtent(extent.data());
+    const int last = this->Voxels->GetDataExtent()[5];
+    extent[4] = last - voxels.wanted[5];
+    extent[5] = last - voxels.wanted[4];
   }
-  else
-  {
-    this->Voxels->UpdateWholeExtent();
-  }
+  this->Voxels->UpdateExtent(extent.data());
   if (!this->Error.empty())
   {
     throw Problem(this->Error);
@@ -416,10 +403,7 @@ void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels
     static_cast<int>(volume) * (read->GetNumberOfScalarComponents() / this->Volumes);
   voxels.image = vtkSmartPointer<vtkImageData>::New();
   voxels.image->ShallowCopy(read);
-  if (this->loads() == Loads::Part)
-  {
-    voxels.image->SetExtent(voxels.wanted.data());
-  }
+  voxels.image->SetExtent(voxels.wanted.data());
   if (this->Volumes == 1)
   {
     read->ReleaseData(); // a time series is kept: its next step comes from it

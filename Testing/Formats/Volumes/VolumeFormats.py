@@ -187,6 +187,45 @@ def test_a_part_of_a_packed_file_is_unpacked_without_what_follows():
             assert_says(said.text, "has packed numbers that are damaged or too few")
 
 
+def test_a_part_of_a_nifti_series():
+    """Each rank keeps its part of all times."""
+    numbers = numpy.random.default_rng(4).integers(0, 60000, (13, 9, 8, 4)).astype("uint16")
+    colours = numpy.zeros((13, 9, 8), [(name, "u1") for name in "RGB"])
+    for i, name in enumerate("RGB"):
+        colours[name] = numbers[..., i] >> 8
+    for what, values, times in (("series", numbers, 4), ("colours", colours, 1),
+                                ("vectors", numbers[:, :, :, None, :3], 1)):
+        for ending in ("nii", "nii.gz"):
+            for affine in volume_files.affines()[::5]:
+                name = scratch(f"part of {what}.{ending}")
+                nibabel.Nifti1Image(values, affine).to_filename(name)
+                check_parts_of_times(name, times)
+
+
+def check_parts_of_times(name, times):
+    whole = opened(name, "NIFTIVolumeReader")
+    part = simple.NIFTIVolumeReader(FileName=name)
+    reader = part.GetClientSideObject()
+    reader.UpdateInformation()
+    for box in ([3, 7, 2, 5, 1, 6], [0, 3, 0, 3, 0, 3], [5, 5, 6, 6, 5, 5]):
+        for time in range(times):
+            whole.UpdatePipeline(float(time))
+            before = bytes_read()
+            reader.UpdateTimeStep(float(time), -1, 1, 0, box)
+            read = bytes_read() - before
+            assert time == 0 or read < 1000, (name, box, time, read)  # it is kept
+            expected, found = (of.GetOutputDataObject(0)
+                               for of in (whole.GetClientSideObject(), reader))
+            x, y, z = (slice(box[2 * i], box[2 * i + 1] + 1) for i in range(3))
+            sides = expected.GetDimensions()
+            expected = vtk_to_numpy(expected.GetPointData().GetScalars())
+            expected = expected.reshape(*sides[::-1], -1)[z, y, x]
+            found = vtk_to_numpy(found.GetPointData().GetScalars()).reshape(expected.shape)
+            assert numpy.array_equal(found, expected), (name, box, time)
+    for source in (whole, part):
+        simple.Delete(source)
+
+
 def test_a_part_of_tuples_and_of_a_later_time():
     tuples = numpy.arange(2 * 7 * 9 * 6 * 3, dtype="uint16").reshape(3, 6, 9, 7, 2)
     header = "\n".join((
