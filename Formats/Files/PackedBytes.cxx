@@ -222,7 +222,7 @@ void readBytes(
 
 std::size_t StoredBox::voxelCount() const
 {
-  std::size_t count = 1;
+  std::size_t count = this->volumes;
   for (int axis = 0; axis < 3; ++axis)
   {
     count *= static_cast<std::size_t>(this->extent[2 * axis + 1] - this->extent[2 * axis] + 1);
@@ -243,25 +243,29 @@ public:
     const bool wholeRows = this->count(0) == this->side(0);
     const bool wholeSlices = wholeRows && this->count(1) == this->side(1);
     this->Rows = wholeRows ? 1 : this->count(1);
-    this->Runs = (wholeSlices ? 1 : this->count(2)) * this->Rows;
+    this->RunsOfVolume = (wholeSlices ? 1 : this->count(2)) * this->Rows;
+    this->Runs = box.volumes * this->RunsOfVolume;
     this->Bytes = box.voxelCount() / this->Runs * box.bytes;
   }
 
   std::uint64_t runs() const { return this->Runs; }
   std::uint64_t bytes() const { return this->Bytes; } // of a run
 
-  // Bytes of the volume before a run.
+  // Bytes of the volumes before a run.
   std::uint64_t before(std::uint64_t run) const
   {
-    const std::uint64_t z = this->first(2) + run / this->Rows;
-    const std::uint64_t y = this->first(1) + run % this->Rows;
+    const std::uint64_t volume = run / this->RunsOfVolume;
+    const std::uint64_t ofVolume = run % this->RunsOfVolume;
+    const std::uint64_t z = volume * this->side(2) + this->first(2) + ofVolume / this->Rows;
+    const std::uint64_t y = this->first(1) + ofVolume % this->Rows;
     return ((z * this->side(1) + y) * this->side(0) + this->first(0)) * this->Box.bytes;
   }
 
-  // Whether the last run ends where the volume does.
+  // Whether the last run ends where the last volume does.
   bool reachEnd() const
   {
-    const std::uint64_t all = this->side(0) * this->side(1) * this->side(2) * this->Box.bytes;
+    const std::uint64_t all =
+      this->Box.volumes * this->side(0) * this->side(1) * this->side(2) * this->Box.bytes;
     return this->before(this->Runs - 1) + this->Bytes == all;
   }
 
@@ -272,6 +276,7 @@ private:
 
   const StoredBox& Box;
   std::uint64_t Rows = 1; // of runs in a slice
+  std::uint64_t RunsOfVolume = 1;
   std::uint64_t Runs = 0;
   std::uint64_t Bytes = 0;
 };

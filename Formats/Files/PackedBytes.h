@@ -51,8 +51,9 @@ struct StoredBox
   glm::ivec3 dimensions{ 0 };  ///< of all voxels
   std::array<int, 6> extent{}; ///< first and last x, y and z of those that are wanted
   std::size_t bytes = 0;       ///< of a voxel
+  std::size_t volumes = 1;     ///< one after another: the same voxels of each are wanted
 
-  std::size_t voxelCount() const; ///< that are wanted
+  std::size_t voxelCount() const; ///< that are wanted, of all volumes
 };
 
 /**

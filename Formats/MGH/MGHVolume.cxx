@@ -178,49 +178,30 @@ void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 
 double MGHVolume::storedBytes(const VolumeHeader& header) const
 {
-  const int frames = this->loads() == Loads::Part ? 1 : this->Frames;
+  const int frames = this->keepsFrames() ? this->Frames : 1;
   return this->Numbers ? 0.0 : frames * VolumeFile::storedBytes(header);
-}
-
-void MGHVolume::loadPart(std::size_t volume, const Progress& progress, StoredVoxels& voxels) const
-{
-  auto numbers = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
-  const auto size = static_cast<std::size_t>(numbers->GetDataTypeSize());
-  const StoredBox box{ this->Dimensions, voxels.wanted, size };
-  StoredBytes from = this->From;
-  from.offset += volume * size * static_cast<std::size_t>(this->Dimensions.x) *
-    static_cast<std::size_t>(this->Dimensions.y) * static_cast<std::size_t>(this->Dimensions.z);
-  numbers->SetNumberOfTuples(static_cast<vtkIdType>(box.voxelCount()));
-  auto* const to = static_cast<char*>(numbers->GetVoidPointer(0));
-  bool stopped = false;
-  readBox(from, box, to, [&](double fraction) {
-    stopped = !progress(fraction);
-    return !stopped;
-  });
-  if (!stopped)
-  {
-    toMachineOrder(to, box.voxelCount(), size, true);
-    voxels.showWanted(numbers);
-  }
 }
 
 void MGHVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
-  if (this->loads() == Loads::Part)
+  const std::size_t frames = this->keepsFrames() ? static_cast<std::size_t>(this->Frames) : 1;
+  vtkSmartPointer<vtkDataArray> numbers = this->Held == voxels.wanted ? this->Numbers : nullptr;
+  const auto size = static_cast<std::size_t>(vtkDataArray::GetDataTypeSize(this->Type));
+  const StoredBox box{ this->Dimensions, voxels.wanted, size, frames };
+  if (!numbers)
   {
-    this->loadPart(volume, progress, voxels);
-    return;
-  }
-  const vtkIdType count = vtkIdType(this->Dimensions.x) * this->Dimensions.y * this->Dimensions.z;
-  if (!this->Numbers)
-  {
-    auto numbers = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
-    numbers->SetNumberOfTuples(count * this->Frames);
+    this->Numbers = nullptr;
+    StoredBytes from = this->From;
+    if (!this->keepsFrames())
+    {
+      from.offset += volume * size * static_cast<std::size_t>(this->Dimensions.x) *
+        static_cast<std::size_t>(this->Dimensions.y) * static_cast<std::size_t>(this->Dimensions.z);
+    }
+    numbers = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+    numbers->SetNumberOfTuples(static_cast<vtkIdType>(box.voxelCount()));
     auto* const to = static_cast<char*>(numbers->GetVoidPointer(0));
-    const auto size = static_cast<std::size_t>(numbers->GetDataTypeSize());
-    const auto all = static_cast<std::size_t>(count * this->Frames);
     bool stopped = false;
-    readBytes(this->From, to, all * size, [&](double fraction) {
+    readBox(from, box, to, [&](double fraction) {
       stopped = !progress(fraction);
       return !stopped;
     });
@@ -228,15 +209,15 @@ void MGHVolume::load(std::size_t volume, const Progress& progress, StoredVoxels&
     {
       return;
     }
-    toMachineOrder(to, all, size, true);
-    this->Numbers = numbers;
+    toMachineOrder(to, box.voxelCount(), size, true);
   }
-  voxels.show(this->Dimensions,
-    this->Frames > 1 ? partOf(this->Numbers, static_cast<vtkIdType>(volume) * count, count)
-                     : this->Numbers);
-  if (this->Frames == 1)
+  const auto count = static_cast<vtkIdType>(box.voxelCount() / frames);
+  voxels.showWanted(
+    frames > 1 ? partOf(numbers, static_cast<vtkIdType>(volume) * count, count) : numbers);
+  if (this->keepsFrames())
   {
-    this->Numbers = nullptr; // frames are kept: the next one comes from them
+    this->Numbers = numbers;
+    this->Held = voxels.wanted;
   }
 }
 

@@ -24,21 +24,20 @@ public:
   std::string noun() const override { return "FreeSurfer volume"; }
   void readHeader(const std::string& fileName, VolumeHeader& header) override;
   double storedBytes(const VolumeHeader& header) const override;
-  Loads loads() const override
-  {
-    return this->From.isPacked && this->Frames > 1 ? Loads::All : Loads::Part;
-  }
+  Loads loads() const override { return Loads::Part; } ///< of all frames if they are packed
   bool readsNothingElse() const override { return !this->From.isPacked; }
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
 private:
-  void loadPart(std::size_t volume, const Progress& progress, StoredVoxels& voxels) const;
+  bool keepsFrames() const { return this->From.isPacked && this->Frames > 1; }
 
   StoredBytes From; // the voxels of all frames
   glm::ivec3 Dimensions{ 0 };
   int Frames = 1;
   int Type = VTK_VOID;
-  vtkSmartPointer<vtkDataArray> Numbers; // all frames of a packed file, kept for the next one
+  // A part of all frames of a packed file, kept for the next one, and which part it is.
+  vtkSmartPointer<vtkDataArray> Numbers;
+  std::array<int, 6> Held{};
 };
 }
 

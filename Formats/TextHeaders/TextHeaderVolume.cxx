@@ -295,17 +295,13 @@ public:
   std::string noun() const override;
   void readHeader(const std::string& fileName, VolumeHeader& header) override;
   double storedBytes(const VolumeHeader& header) const override;
-  // A series whose times are side by side in the file is read as a whole.
   Loads loads() const override
   {
-    const bool hasPart = hasNumbersInOneFile(this->Stored) && !this->TupleIsTime &&
-      (this->Steps == 1 || this->readsNothingElse());
-    return hasPart ? Loads::Part : Loads::All;
+    return hasNumbersInOneFile(this->Stored) ? Loads::Part : Loads::All;
   }
   bool readsNothingElse() const override
   {
-    return hasNumbersInOneFile(this->Stored) && !this->TupleIsTime &&
-      this->Stored.encoding == Encoding::Raw;
+    return hasNumbersInOneFile(this->Stored) && this->Stored.encoding == Encoding::Raw;
   }
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
@@ -322,9 +318,16 @@ private:
   void arrange(VolumeHeader& header);
   // One layer of a segmentation, with its labels.
   void takeSegments(VolumeHeader& header);
-  // False if `progress` says stop.
-  bool readAll(const Progress& progress);
-  void loadPart(std::size_t volume, const Progress& progress, StoredVoxels& voxels) const;
+  // All numbers, or those of a box. None if `progress` says stop.
+  vtkSmartPointer<vtkDataArray> readAll(const Progress& progress) const;
+  vtkSmartPointer<vtkDataArray> readPart(
+    std::uint64_t skip, const StoredBox& box, const Progress& progress) const;
+  // Whether all volumes are read together: they are packed, or their numbers lie side by side.
+  bool keepsSeries() const
+  {
+    const bool isApart = this->readsNothingElse() || this->StepsAreLayers;
+    return (this->Steps > 1 && !isApart) || (this->TupleIsTime && this->Tuple > 1);
+  }
   // The step along the last axis that has a volume of the series, or the layer that is shown.
   std::size_t stepOf(std::size_t volume) const
   {
@@ -348,8 +351,9 @@ private:
   bool TupleIsTime = false; // its numbers are volumes
   std::size_t Steps = 1;    // volumes along the axis after those of space
   bool StepsAreLayers = false;
-  // All numbers, kept for the other volumes of a series.
+  // A part of all volumes, kept for the others of a series, and which part it is.
   vtkSmartPointer<vtkDataArray> Numbers;
+  std::array<int, 6> Held{};
 };
 
 TextHeaderVolume::TextHeaderVolume(TextFormat format)
@@ -495,19 +499,16 @@ void TextHeaderVolume::takeSegments(VolumeHeader& header)
 
 double TextHeaderVolume::storedBytes(const VolumeHeader&) const
 {
-  const double steps = this->loads() == Loads::Part ? static_cast<double>(this->Steps) : 1.0;
+  const bool isOne = this->loads() == Loads::Part && !this->keepsSeries();
+  const double steps = isOne ? static_cast<double>(this->Steps) : 1.0;
   return this->Numbers ? 0.0 : this->Stored.dataBytes() / steps;
 }
 
-void TextHeaderVolume::loadPart(
-  std::size_t volume, const Progress& progress, StoredVoxels& voxels) const
+vtkSmartPointer<vtkDataArray> TextHeaderVolume::readPart(
+  std::uint64_t skip, const StoredBox& box, const Progress& progress) const
 {
   auto numbers =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Stored.numberType));
-  const std::size_t bytes = this->Tuple * static_cast<std::size_t>(numbers->GetDataTypeSize());
-  const StoredBox box{ this->Dimensions, voxels.wanted, bytes };
-  const auto skip =
-    this->stepOf(volume) * (static_cast<std::uint64_t>(this->Stored.dataBytes()) / this->Steps);
   numbers->SetNumberOfComponents(static_cast<int>(this->Tuple));
   numbers->SetNumberOfTuples(static_cast<vtkIdType>(box.voxelCount()));
   bool stopped = false;
@@ -516,14 +517,10 @@ void TextHeaderVolume::loadPart(
       stopped = !progress(fraction);
       return !stopped;
     });
-  if (!stopped)
-  {
-    voxels.firstComponent = this->componentOf(volume);
-    voxels.showWanted(numbers);
-  }
+  return stopped ? nullptr : numbers;
 }
 
-bool TextHeaderVolume::readAll(const Progress& progress)
+vtkSmartPointer<vtkDataArray> TextHeaderVolume::readAll(const Progress& progress) const
 {
   auto numbers =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Stored.numberType));
@@ -535,32 +532,41 @@ bool TextHeaderVolume::readAll(const Progress& progress)
     stopped = stopped || !progress(fraction);
     return !stopped;
   });
-  this->Numbers = stopped ? nullptr : numbers;
-  return !stopped;
+  return stopped ? nullptr : numbers;
 }
 
 void TextHeaderVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
-  if (this->loads() == Loads::Part)
+  const bool isPart = this->loads() == Loads::Part;
+  const bool isOne = isPart && !this->keepsSeries(); // of the steps
+  vtkSmartPointer<vtkDataArray> numbers =
+    !isPart || this->Held == voxels.wanted ? this->Numbers : nullptr;
+  if (!numbers)
   {
-    this->loadPart(volume, progress, voxels);
+    this->Numbers = nullptr;
+    const std::size_t number = vtkDataArray::GetDataTypeSize(this->Stored.numberType);
+    const StoredBox box{ this->Dimensions, voxels.wanted, this->Tuple * number,
+      isOne ? 1 : this->Steps };
+    const auto ofStep = static_cast<std::uint64_t>(this->Stored.dataBytes()) / this->Steps;
+    numbers = isPart ? this->readPart(isOne ? this->stepOf(volume) * ofStep : 0, box, progress)
+                     : this->readAll(progress);
+  }
+  if (!numbers)
+  {
     return;
   }
-  if (!this->Numbers && !this->readAll(progress))
-  {
-    return;
-  }
-  const vtkIdType count = this->Numbers->GetNumberOfValues() / static_cast<vtkIdType>(this->Steps);
-  voxels.show(this->Dimensions,
-    this->Steps > 1
-      ? partOf(this->Numbers, static_cast<vtkIdType>(this->stepOf(volume)) * count, count)
-      : this->Numbers);
+  const auto steps = static_cast<vtkIdType>(isOne ? 1 : this->Steps);
+  const vtkIdType count = numbers->GetNumberOfValues() / steps;
+  const vtkSmartPointer<vtkDataArray> shown = steps > 1
+    ? partOf(numbers, static_cast<vtkIdType>(this->stepOf(volume)) * count, count)
+    : numbers;
+  isPart ? voxels.showWanted(shown) : voxels.show(this->Dimensions, shown);
+  voxels.kept = numbers;
   voxels.firstComponent = this->componentOf(volume);
-  const bool isSeries =
-    (this->Steps > 1 && !this->StepsAreLayers) || (this->TupleIsTime && this->Tuple > 1);
-  if (!isSeries)
+  if (this->keepsSeries())
   {
-    this->Numbers = nullptr; // a series is kept: its next step comes from it
+    this->Numbers = numbers; // the next step comes from it
+    this->Held = voxels.wanted;
   }
 }
 

@@ -68,6 +68,7 @@ struct StoredVoxels
 {
   std::array<int, 6> wanted{};         ///< the extent that is needed; there may be more
   vtkSmartPointer<vtkImageData> image; ///< null: reading was stopped
+  vtkSmartPointer<vtkDataArray> kept;  ///< what the image's numbers are a partOf; may be null
   int firstComponent = 0;              ///< of the volume that was asked for
   bool mayBeShown = false;             ///< whether nobody else keeps the numbers or changes them
   std::string warning; ///< on these voxels, as the header's: the end of a sentence. Empty: none
