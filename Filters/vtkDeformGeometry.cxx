@@ -27,8 +27,6 @@ brainshiftGuardRequestsMacro(vtkDeformGeometry);
 
 namespace
 {
-constexpr vtkIdType PointsAtLeast = 256; // for a thread: about 0.1 ms
-
 // Fractions of the progress bar.
 constexpr double PointsDone = 0.5;
 constexpr double PointNormalsDone = 0.8;
@@ -89,7 +87,7 @@ bool movePoints(
       to->SetTuple(point, &position.x);
     }
   };
-  return forPortions(progress, from->GetNumberOfTuples(), PointsAtLeast, move);
+  return forPortions(progress, from->GetNumberOfTuples(), MappedOfThread, move);
 }
 
 // `positionOf(i)`: of normal i, before the map.
@@ -109,7 +107,7 @@ bool turnNormals(const ProgressOf& progress, const DirectedMap& map, vtkDataSetA
       turned->SetTuple(i, &normal.x);
     }
   };
-  return forPortions(progress, normals->GetNumberOfTuples(), PointsAtLeast, turn);
+  return forPortions(progress, normals->GetNumberOfTuples(), MappedOfThread, turn);
 }
 
 bool deform(vtkAlgorithm* filter, const DirectedMap& map, vtkPointSet* input, vtkPointSet* output)

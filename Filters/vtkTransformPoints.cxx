@@ -30,8 +30,7 @@ brainshiftGuardRequestsMacro(vtkTransformPoints);
 
 namespace
 {
-constexpr vtkIdType MappedAtLeast = 256; // for a thread: about 0.1 ms
-constexpr double StepMm = 0.1;           // between the points that a derivative is taken from
+constexpr double StepMm = 0.1; // between the points that a derivative is taken from
 
 // `missesMm`: of each point.
 void warnOfMisses(vtkObject* filter, const std::vector<double>& missesMm)
@@ -123,7 +122,7 @@ int vtkTransformPoints::RequestData(
       }
     }
   };
-  if (!forPortions({ this }, count, MappedAtLeast, move))
+  if (!forPortions({ this }, count, MappedOfThread, move))
   {
     output->Initialize();
   }

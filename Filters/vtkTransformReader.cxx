@@ -26,15 +26,13 @@ using namespace brainshift;
 
 namespace
 {
-constexpr vtkIdType SampledAtLeast = 256; // for a thread: about 0.1 ms
-
 // Displacements of a map at the points of a grid; false if the user aborts.
 bool sample(vtkAlgorithm* filter, const DirectedTransform& transform, brainshift::Direction wanted,
   const Grid& grid, std::vector<glm::vec3>& displacements)
 {
   displacements.resize(grid.count());
   const auto points = static_cast<vtkIdType>(grid.count());
-  return forPortions({ filter }, points, SampledAtLeast, [&](vtkIdType from, vtkIdType to) {
+  return forPortions({ filter }, points, MappedOfThread, [&](vtkIdType from, vtkIdType to) {
     for (vtkIdType point = from; point < to; ++point)
     {
       const vtkIdType row = point / grid.dimensions.x;
@@ -188,7 +186,7 @@ vtkDoubleArray* vtkTransformReader::MapPoints(bool isBack, vtkDoubleArray* to)
   const auto points = this->Load().empty() ? static_cast<vtkIdType>(state.Points.size()) : 0;
   to->SetNumberOfValues(4 * points);
   double* const numbers = to->GetPointer(0);
-  parallelFor(0, points, SampledAtLeast, [&](std::int64_t first, std::int64_t last) {
+  parallelFor(0, points, MappedOfThread, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       double& missMm = numbers[4 * i + 3];

@@ -33,7 +33,6 @@ constexpr double BoxTolerance = 1e-6; // of a cell
 // Single precision rounds each weight. The errors of many weights add up as the root of their
 // number.
 constexpr double WeightTolerance = 1e-6;
-constexpr std::int64_t PointsAtLeast = 256; // for a thread: about 0.1 ms
 
 // The numbers of the array, in this order.
 struct FittedFor
@@ -208,7 +207,7 @@ std::vector<glm::vec3> cubicAt(const Grid& points, const PlacedPoints& from)
 {
   std::vector<glm::vec3> found(points.count());
   const auto count = static_cast<std::int64_t>(found.size());
-  parallelFor(0, count, PointsAtLeast, [&](std::int64_t first, std::int64_t last) {
+  parallelFor(0, count, MappedOfThread, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t point = first; point < last; ++point)
     {
       const glm::dvec3 index(indexOf(points, static_cast<std::size_t>(point)));
