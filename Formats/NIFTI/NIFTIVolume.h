@@ -26,6 +26,7 @@ public:
   std::string noun() const override { return "NIfTI file"; }
   void readHeader(const std::string& fileName, VolumeHeader& header) override;
   Loads loads() const override { return Loads::Part; } ///< of a series at all times: it is kept
+  bool readsNothingElse() const override { return this->Volumes == 1; }
   double storedBytes(const VolumeHeader& header) const override;
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
