@@ -458,7 +458,7 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
 std::optional<double> StreamedBricks::numberAt(vtkWindow* window, const glm::dvec3& place) const
 {
   auto drawn = vtkOpenGLRenderWindow::SafeDownCast(window);
-  if (!drawn || !this->isStreamed())
+  if (!drawn || !this->Level || !this->Atlas || !this->Source)
   {
     return std::nullopt;
   }
