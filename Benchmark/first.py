@@ -2,7 +2,7 @@
 """Measures the first picture of a volume that was delivered, and a drag in the opacity editor.
 
 Each round has a new array of voxels, a new view and new displays. ParaView looks for the ranges of
-new arrays when it makes a filter or a display of them, once for each; that is in both sides' times.
+new arrays when it makes a filter or a display of them; that is in both sides' times.
 The view has drawn an empty picture before. Shaders come from the driver's cache on disk, if it has
 one, because the first run is not counted.
 """
