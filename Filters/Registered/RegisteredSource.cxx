@@ -5,18 +5,12 @@
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
-#include "Common/RankAgreement.h"
-#include "Common/SharedVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/Segmentation.h"
+#include "Filters/Registered/ComparedVoxels.h"
 
 #include "vtkDataArray.h"
-#include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkMultiProcessController.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,22 +23,11 @@ namespace
 constexpr double PositionTolerance = 1e-3; // voxels
 constexpr double ComparedBesideMm = 1.0;   // of the mask
 
-vtkDataArray* scalarsOf(vtkImageData* image)
-{
-  vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  scalars = scalars ? scalars : image->GetPointData()->GetArray(0);
-  return scalars && scalars->GetNumberOfComponents() == 1 ? scalars : nullptr;
-}
-
-// A comparison adds up squares of differences, which overflow above 1e18. Such values are no
-// measurements: files of netCDF have 9.97e36 where nothing was measured.
-constexpr double LargestValue = 1e17;
-
 // The voxels that have no number which can be compared.
 Mask unknownOf(const Volume& volume)
 {
   Mask unknown;
-  const auto isUnknown = [](float value) { return !(std::abs(value) <= LargestValue); };
+  const auto isUnknown = [](float value) { return !(std::abs(value) <= LargestComparedValue); };
   if (std::any_of(volume.values.begin(), volume.values.end(), isUnknown))
   {
     unknown.grid = volume.grid;
@@ -126,47 +109,9 @@ void compareMovingTissue(vtkImageData* image, RegisteredPair& pair)
   }
 }
 
-vtkSmartPointer<vtkImageData> wholeOnFirstRank(vtkImageData* part, vtkInformation* information)
-{
-  vtkMultiProcessController* ranks = severalRanks();
-  if (!ranks)
-  {
-    findGrids(part);
-    requireWhole(part, information);
-    return part;
-  }
-  vtkNew<vtkImageData> sent; // without other arrays, and without points if this rank has none
-  Extent whole{ 0, -1, 0, -1, 0, -1 };
-  information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole.data());
-  if (part)
-  {
-    sent->CopyStructure(part);
-    sent->GetPointData()->SetScalars(scalarsOf(part));
-    sent->GetFieldData()->ShallowCopy(part->GetFieldData());
-  }
-  const WholeVolume volume = SharedVolume::wholeOf(ranks, sent, whole);
-  const bool isFirst = ranks->GetLocalProcessId() == 0;
-  const Extent wanted = isFirst ? volume.extent : Extent{ 0, -1, 0, -1, 0, -1 };
-  std::string problem;
-  const auto image = SharedVolume().share(ranks, sent, volume, wanted, problem);
-  throwIfAny(problem);
-  runOnAllRanks("The volume", [&] {
-    if (isFirst && (!part || part->GetNumberOfPoints() == 0))
-    {
-      throw Problem("The first MPI rank, which registers, has no voxels of the volume; let its "
-                    "reader give it some, or register on one rank");
-    }
-    if (isFirst)
-    {
-      findGrids(image);
-    }
-  });
-  return isFirst ? image : nullptr;
-}
-
 RegisteredGrids findGrids(vtkImageData* image)
 {
-  if (!image || !scalarsOf(image))
+  if (!image || !comparedScalars(image))
   {
     throw Problem("The volume has no point scalars of one component");
   }
@@ -194,7 +139,7 @@ RegisteredSource readSource(vtkImageData* image)
     source.pair.inside = maskOf(source.bent->lattice);
   }
   const ReferenceVolume reference = readReference(image);
-  source.pair.rest = volumeOf(scalarsOf(image), gridOf(image));
+  source.pair.rest = volumeOf(comparedScalars(image), gridOf(image));
   source.pair.reference = volumeOf(reference.voxels, reference.grid);
   source.pair.cavity = maskOf(reference.cavity);
   source.pair.restUnknown = unknownOf(source.pair.rest);
@@ -244,8 +189,8 @@ void requireContent(
   const Mask* unknown = region.outside[1];
   if (unknown && !contentOf(volume, { nullptr, nullptr, { nullptr, unknown } }).hasAny)
   {
-    throw Problem("No voxel of " + name + " is a finite number up to " + numberText(LargestValue) +
-      ", so there is nothing to compare");
+    throw Problem("No voxel of " + name + " is a finite number up to " +
+      numberText(LargestComparedValue) + ", so there is nothing to compare");
   }
   const Content content = contentOf(volume, region);
   if (!content.hasAny)

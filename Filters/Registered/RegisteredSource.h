@@ -13,8 +13,6 @@
 
 #include <memory>
 
-class vtkInformation;
-
 namespace brainshift
 {
 /** A volume at rest, its deformation, and its reference in its present position. */
@@ -30,15 +28,6 @@ struct RegisteredGrids
   Grid rest;
   Grid reference;
 };
-
-/**
- * All of a volume and what it carries. On several MPI ranks the first one gets it; the others send
- * it their parts and get null. All ranks must call it together, and a Problem is thrown on all.
- *
- * @param part          this rank's part; null: none
- * @param information   pipeline information of it; null with no part
- */
-vtkSmartPointer<vtkImageData> wholeOnFirstRank(vtkImageData* part, vtkInformation* information);
 
 /** Throws a Problem if the image has no volume or carries no reference. */
 RegisteredGrids findGrids(vtkImageData* image);

@@ -9,6 +9,7 @@
 #include "Filters/Register/Alignment.h"
 #include "Filters/Register/Refinement.h"
 #include "Filters/Register/Trust.h"
+#include "Filters/Registered/ComparedVoxels.h"
 #include "Filters/Registered/RegisteredSource.h"
 
 #include "vtkAlgorithm.h"
@@ -30,6 +31,7 @@ struct vtkRegistrationRun::Running
   std::unique_ptr<Refinement> Elastic;
   std::vector<glm::vec3> Start;      // displacements of the control points, mm, world axes
   std::string Outside;               // what does not count, in words
+  std::string Coarser;               // why finer voxels are not compared, without a full stop
   glm::dvec3 ReferenceMiddle{ 0.0 }; // mm, world, where the alignment begins
 
   RefinementPlan Plan; // of the checks, too
@@ -76,6 +78,17 @@ constexpr double RegistrationPart = 0.8; // of the progress; the rest are the ch
 constexpr double AlignHalvesMm = 8.0;
 constexpr double AlignOtherMm = 3.0;
 constexpr int StillSides = 8; // control points of a lattice that bends nothing
+
+// The least distance of samples, mm.
+double finestOf(const RefinementPlan& plan)
+{
+  double finest = plan.levels.front().spacingMm;
+  for (const RefinementLevel& level : plan.levels)
+  {
+    finest = std::min(finest, level.spacingMm);
+  }
+  return finest;
+}
 
 std::string rounded(double value, int digits = 0)
 {
@@ -234,12 +247,16 @@ void vtkRegistrationRun::Begin(bool bends)
   *this->Internal = {};
   vtkImageData* part =
     vtkImageData::SafeDownCast(this->Source ? this->Source->GetOutputDataObject(0) : nullptr);
-  const vtkSmartPointer<vtkImageData> image =
-    wholeOnFirstRank(part, part ? this->Source->GetOutputInformation(0) : nullptr);
+  const brainshift::Similarity& similarity = similarities()[this->Similarity];
+  const ComparedVoxels compared =
+    comparedVoxels(part, part ? this->Source->GetOutputInformation(0) : nullptr,
+      bends ? finestOf(similarity.plan) : AlignmentSettings().levelsMm.back());
+  vtkImageData* image = compared.image;
   if (!image)
   {
     return; // the first MPI rank registers
   }
+  this->Internal->Coarser = compared.remark;
   const RegisteredGrids grids = findGrids(image);
   if (!(this->Stiffness > 0.0)) // also rejects NaN
   {
@@ -247,7 +264,6 @@ void vtkRegistrationRun::Begin(bool bends)
       "Stiffness is " + numberText(this->Stiffness) + "; it must be above 0");
   }
   RefinementSettings settings;
-  const brainshift::Similarity& similarity = similarities()[this->Similarity];
   settings.plan = similarity.plan;
   settings.stiffness = this->Stiffness;
   this->Internal->Plan = similarity.plan;
@@ -269,7 +285,7 @@ void vtkRegistrationRun::Begin(bool bends)
   this->Internal->Outside = source.pair.cavity.inside.empty() ? "" : " outside the cavity";
   if (bends)
   {
-    requireRefinable(source.bent.get(), grids.rest);
+    requireRefinable(source.bent.get(), compared.whole);
     const Lattice& start = source.bent->lattice;
     requireHostMemory("The refinement of " + sizeText(start.grid.dimensions) + " control points",
       Refinement::bytes(grids.rest, grids.reference, start.grid, settings));
@@ -374,6 +390,10 @@ void vtkRegistrationRun::Report()
   else
   {
     this->ReportRefinement();
+  }
+  if (!this->Internal->Coarser.empty())
+  {
+    this->Warn("Coarser voxels are compared than there are: " + this->Internal->Coarser + ".");
   }
   const bool isRefused = !this->Refusal.empty();
   const bool isDone = this->Internal->IsFinished() &&

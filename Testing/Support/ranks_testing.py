@@ -72,6 +72,16 @@ TURN_INFORMATION = TURN + """
 self.GetOutputInformation(0).Set(vtk.vtkDataObject.DIRECTION(), rows, 9)
 """
 
+# Makes the voxels of an image smaller.
+FINER_DATA = """
+self.GetImageDataOutput().ShallowCopy(self.GetInputDataObject(0, 0))
+self.GetImageDataOutput().SetSpacing(0.4, 0.4, 0.4)
+"""
+FINER_INFORMATION = """
+import vtk
+self.GetOutputInformation(0).Set(vtk.vtkDataObject.SPACING(), [0.4] * 3, 3)
+"""
+
 # Hands the volume on, or fails on the second of several ranks.
 FAILS = """
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -266,6 +276,24 @@ def answer_registration(found):
     found["aligned"] = numpy.array([*compare.ReferenceRotation, *compare.ReferenceTranslation])
 
 
+def answer_registration_of_averages(found):
+    """The same of voxels that are too fine to be compared, so that averages are."""
+    import brainshift
+    large = simple.Wavelet(WholeExtent=[-161, 160, -160, 160, -159, 160])
+    finer = simple.ProgrammableFilter(
+        Input=large, OutputDataSetType="vtkImageData", Script=FINER_DATA,
+        RequestInformationScript=FINER_INFORMATION)
+    volume = simple.FreeFormDeformation(Input=finer, LatticeDimensions=[6, 6, 6])
+    reference = simple.Wavelet(WholeExtent=[-60, 60, -60, 60, -60, 60])
+    compare = simple.CompareVolumes(Input=volume, Reference=reference,
+                                    ReferenceTranslation=(3.0, -2.0, 1.0))
+    brainshift.align(compare, callback=lambda progress: progress.steps < 2)
+    found["aligned averages"] = numpy.array(
+        [*compare.ReferenceRotation, *compare.ReferenceTranslation])
+    for source in (compare, reference, volume, finer, large):
+        simple.Delete(source)
+
+
 def answer_failure(found):
     """The pipeline of one rank fails, while a stroke is made, and works again."""
     import brainshift
@@ -447,6 +475,7 @@ def answers(folder=None):
     answer_features(found)
     answer_oblique(found)
     answer_registration(found)
+    answer_registration_of_averages(found)
     answer_several(found)
     answer_slices(found)
     answer_letters(found)
