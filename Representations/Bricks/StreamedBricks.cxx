@@ -30,6 +30,7 @@ constexpr double LeastMiB = 1.0;
 constexpr int LeastSlots = 8;
 constexpr double MostBricks = 16777216.0;       // rays write their numbers as floats
 constexpr double StaysFiner = 1.3;              // times a pixel
+constexpr double WidestOfRays = 1.41421356;     // pixels; voxels are as near to one as levels allow
 constexpr double MoreRoom = 1.5;                // times the former limit
 constexpr std::chrono::seconds FileMendsIn(30); // a brick that failed is read again after that
 constexpr int QuietPicturesOfRays = 2; // they ask for one brick each: two pictures are compared
@@ -121,7 +122,7 @@ BrickView brickViewOf(
 std::optional<FineGrid> levelFor(const DrawnValues& values, const std::vector<Grid>& finer,
   const BrickView& view, double pixelsWide)
 {
-  const double pixelMm = pixelsWide * pixelAt(values, view);
+  const double pixelMm = (view.ofSlices ? 1.0 : WidestOfRays) * pixelsWide * pixelAt(values, view);
   const auto sides = [&](const glm::dvec3& voxels) {
     glm::dvec3 mm;
     for (int axis = 0; axis < 3; ++axis)

@@ -45,8 +45,9 @@ BrickView brickViewOf(
 bool isLeftEye(const DrawnVolume& drawn);
 
 /// The level that suits a view: the coarsest whose voxels are no longer than a pixel is wide where
-/// the view's corners are nearest to the eye, or else the finest. None: the volume's own is fine
-/// enough, or no finer one has its axes.
+/// the view's corners are nearest to the eye, or else the finest. Rays take voxels of up to 1.41
+/// pixels, as OpenGL takes the nearest of a texture's levels: what they see lies behind that
+/// corner. None: the volume's own is fine enough, or no finer one has its axes.
 /// `pixelsWide`: so many pixels count as one.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::optional<FineGrid> levelFor(const DrawnValues& values,
   const std::vector<Grid>& finer, const BrickView& view, double pixelsWide = 1.0);

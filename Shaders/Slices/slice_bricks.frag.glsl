@@ -11,13 +11,11 @@ void main()
     discard;
   }
   vec3 fine = fineAt(rest);
-  vec3 brick = brickOf(fine);
-  vec4 page = pageOf(brick);
-  bool isThere = page.a >= 0.5;
-  if (isThere && !isNumber(textureLod(atlas, positionInAtlas(page, fine, brick), 0.0).r))
+  holdBrickOf(fine);
+  if (heldIsThere && !isNumber(textureLod(atlas, positionInAtlas(fine), 0.0).r))
   {
     discard; // what is behind is seen
   }
-  float number = numberOf(brick);
-  gl_FragData[0] = isThere ? vec4(-1.0, number, 0.0, 0.0) : vec4(number, -1.0, 0.0, 0.0);
+  float number = numberOf(brickOf(fine));
+  gl_FragData[0] = heldIsThere ? vec4(-1.0, number, 0.0, 0.0) : vec4(number, -1.0, 0.0, 0.0);
 }

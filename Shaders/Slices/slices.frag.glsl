@@ -14,12 +14,9 @@ uniform int selecting;   // 1: only depth is drawn; colours are the background o
 float finerAt(vec3 rest)
 {
   vec3 fine = fineAt(rest);
-  vec3 brick = brickOf(fine);
-  vec4 page = pageOf(brick);
-  return page.a < 0.5
-    ? filteredAt(scalars, rest, voxels, cubic)
-    : filteredAt(atlas, positionInAtlas(page, fine, brick), vec3(textureSize(atlas, 0)),
-                                  cubic);
+  holdBrickOf(fine);
+  return heldIsThere ? filteredAt(atlas, positionInAtlas(fine), vec3(textureSize(atlas, 0)), cubic)
+                     : filteredAt(scalars, rest, voxels, cubic);
 }
 #endif
 

@@ -34,20 +34,44 @@ vec4 pageOf(vec3 brick)
   return textureLod(pages, (brick + 0.5) * pagesTexel, 0.0);
 }
 
-// Position of a voxel in the atlas.
-vec3 positionInAtlas(vec4 page, vec3 fine, vec3 brick)
+// The brick that was read last. Samples of a ray mostly lie in the same one as the sample before.
+vec3 heldLow = vec3(1.0); // its voxels, first and one past the last; at first none
+vec3 heldHigh = vec3(0.0);
+bool heldIsThere = false;
+vec3 heldInAtlas = vec3(0.0); // a voxel's place in the atlas, less its number
+
+void holdBrickOf(vec3 fine)
 {
-  vec3 slot = floor(page.xyz * 255.0 + 0.5) * SlotSideVoxels;
-  return (slot + fine - BRICK_SIDE * brick + BRICK_BORDER) * atlasTexel;
+  if (any(lessThan(fine, heldLow)) || any(greaterThanEqual(fine, heldHigh)))
+  {
+    vec3 brick = brickOf(fine);
+    vec4 page = pageOf(brick);
+    heldLow = BRICK_SIDE * brick;
+    heldHigh = heldLow + BRICK_SIDE;
+    heldIsThere = page.a >= 0.5;
+    heldInAtlas = floor(page.xyz * 255.0 + 0.5) * SlotSideVoxels + BRICK_BORDER - heldLow;
+  }
+}
+
+// Position in the atlas of a voxel of the held brick.
+vec3 positionInAtlas(vec3 fine)
+{
+  return (fine + heldInAtlas) * atlasTexel;
+}
+
+// The sampler would clamp, too. But a software driver skips a branch that no ray needs only if one
+// of the two has 8 instructions or more (Mesa's llvmpipe). Without that, each sample reads both
+// textures: a picture takes a fifth longer.
+float coarseScalarAt(vec3 rest)
+{
+  return textureLod(scalars, clamp(rest, 0.0, 1.0), 0.0).r;
 }
 
 float scalarAt(vec3 rest)
 {
   vec3 fine = fineAt(rest);
-  vec3 brick = brickOf(fine);
-  vec4 page = pageOf(brick);
-  return page.a < 0.5 ? textureLod(scalars, rest, 0.0).r
-                      : textureLod(atlas, positionInAtlas(page, fine, brick), 0.0).r;
+  holdBrickOf(fine);
+  return heldIsThere ? textureLod(atlas, positionInAtlas(fine), 0.0).r : coarseScalarAt(rest);
 }
 
 // Differences over one voxel to either side, of the level that is drawn there. A slot's border has
@@ -55,11 +79,10 @@ float scalarAt(vec3 rest)
 vec3 gradientAt(vec3 rest)
 {
   vec3 fine = fineAt(rest);
-  vec3 brick = brickOf(fine);
-  vec4 page = pageOf(brick);
-  return page.a < 0.5 ? centralDifferences(scalars, rest, voxel)
-                      : centralDifferences(atlas, positionInAtlas(page, fine, brick), atlasTexel,
-                          1.0 / fineFromTexture);
+  holdBrickOf(fine);
+  return heldIsThere
+    ? centralDifferences(atlas, positionInAtlas(fine), atlasTexel, 1.0 / fineFromTexture)
+    : centralDifferences(scalars, rest, voxel);
 }
 
 #ifdef WISHES

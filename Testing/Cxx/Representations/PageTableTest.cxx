@@ -214,12 +214,15 @@ BrickView viewOf(const DrawnValues& values, const glm::dmat4& clipFromEye, const
   return view;
 }
 
-// Seen in parallel: 100 pixels show twice `half` mm.
-std::optional<FineGrid> levelSeen(double half, glm::dvec2 acrossMm = { 0.5, 1.0 })
+// On slices seen in parallel: 100 pixels show twice `half` mm.
+std::optional<FineGrid> levelSeen(
+  double half, glm::dvec2 acrossMm = { 0.5, 1.0 }, bool ofSlices = true)
 {
   const DrawnValues values = valuesOfLevel();
   const glm::dmat4 clipFromEye = glm::ortho(-half, half, -half, half, 1.0, 500.0);
-  return levelFor(values, finerGrids(acrossMm), viewOf(values, clipFromEye, { 64.0, 64.0, 300.0 }));
+  BrickView view = viewOf(values, clipFromEye, { 64.0, 64.0, 300.0 });
+  view.ofSlices = ofSlices;
+  return levelFor(values, finerGrids(acrossMm), view);
 }
 }
 
@@ -236,6 +239,17 @@ TEST(LevelFor, HasVoxelsNoLongerThanAPixel)
   EXPECT_NEAR(fine.voxelFromTexture.x, 128.0, 1e-9);
   // The volume's texture begins at -0.5 mm, the level's first voxel, at 0 mm, does, too.
   EXPECT_NEAR(fine.voxelOfTextureZero.x, 0.0, 1e-9);
+}
+
+TEST(LevelFor, HasVoxelsOfUpTo1Point41PixelsForRays)
+{
+  FineGrid none;
+  none.level = 99;
+  const auto seen = [](double half) { return levelSeen(half, { 0.5, 1.0 }, false); };
+  EXPECT_FALSE(seen(71.0)); // pixels of 1.42 mm; the volume's voxels have 2 mm
+  EXPECT_EQ(seen(70.0).value_or(none).level, 1U);
+  EXPECT_EQ(seen(35.5).value_or(none).level, 1U);
+  EXPECT_EQ(seen(35.0).value_or(none).level, 0U);
 }
 
 TEST(LevelFor, TakesOneThatIsFinerWithinSlicesAlone)
@@ -258,6 +272,7 @@ TEST(LevelFor, CountsPixelsWhereSlicesAreNearest)
   // 100 pixels show 180 mm at a distance of 180 mm; the volume begins 60 mm from the eye.
   const double angle = 2.0 * std::atan(0.5);
   BrickView view = viewOf(values, glm::perspective(angle, 1.0, 1.0, 500.0), { 64.0, 64.0, 187.5 });
+  view.ofSlices = true;
   const std::vector<Grid> finer = finerGrids({ 0.5, 1.0 });
   FineGrid none;
   none.level = 99;

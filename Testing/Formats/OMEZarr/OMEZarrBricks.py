@@ -250,7 +250,7 @@ def test_another_level_while_bricks_arrive():
         for _ in range(former):
             shown.view.SMProxy.StillRender()  # bricks of the finest level are on their way
         away = numpy.array(shown.view.CameraPosition) - MIDDLE
-        shown.view.CameraPosition = list(MIDDLE + 6.5 * away)
+        shown.view.CameraPosition = list(MIDDLE + 4.6 * away)
         image, state = shown.detail()
         assert state["gpuLevel"] == 1 and state["gpuBricks"] > 4, state
         pictures.append(image)
