@@ -304,6 +304,8 @@ Lacking resampleRow(
   return lacking;
 }
 
+constexpr vtkIdType VoxelsInTime = 2000000;
+
 template <typename T>
 Lacking resampleTyped(vtkDataArray* array, vtkDataArray* target, const std::vector<double>& outside,
   const Resampling& how)
@@ -321,7 +323,9 @@ Lacking resampleTyped(vtkDataArray* array, vtkDataArray* target, const std::vect
     return out + (row * targetSize.x + from.x) * components;
   };
   const vtkIdType rows = size.x > 0 ? static_cast<vtkIdType>(size.y) * size.z : 0;
-  const vtkIdType rowsAtOnce = std::max<vtkIdType>(rows / 20, 256); // between two progress reports
+  // Between two reports of progress: at least 256, about a tenth of a second where rows are long.
+  const vtkIdType rowsInTime = VoxelsInTime / std::max<vtkIdType>(size.x, 1);
+  const vtkIdType rowsAtOnce = std::max<vtkIdType>(std::min(rows / 20, rowsInTime), 256);
   Lacking lacking;
   std::mutex mutex;
   for (vtkIdType done = 0; done < rows; done += rowsAtOnce)

@@ -382,7 +382,43 @@ double NIFTIVolume::storedBytes(const VolumeHeader& header) const
   return isLoaded ? 0.0 : this->Volumes * VolumeFile::storedBytes(header);
 }
 
-void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels)
+namespace
+{
+// Hands the progress of VTK's reader on, and a stop back.
+struct ReaderWatch
+{
+  vtkAlgorithm* reader;
+  const Progress& progress;
+  bool isStopped = false;
+
+  void report()
+  {
+    if (!this->isStopped && !this->progress(this->reader->GetProgress()))
+    {
+      this->isStopped = true;
+      this->reader->SetAbortExecute(1);
+    }
+  }
+};
+}
+
+// False: `progress` said stop. What was read is dropped then.
+bool NIFTIVolume::isRead(int extent[6], const Progress& progress)
+{
+  ReaderWatch watch{ this->Voxels, progress };
+  const auto observer =
+    this->Voxels->AddObserver(vtkCommand::ProgressEvent, &watch, &ReaderWatch::report);
+  this->Voxels->UpdateExtent(extent);
+  this->Voxels->RemoveObserver(observer);
+  if (watch.isStopped)
+  {
+    this->Voxels->SetAbortExecute(0);
+    this->Voxels->GetOutput()->ReleaseData();
+  }
+  return !watch.isStopped;
+}
+
+void NIFTIVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
   this->Error.clear();
   // VTK takes the slices of the extent as the file numbers them, and reverses these.
@@ -393,7 +429,10 @@ void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels
     extent[4] = last - voxels.wanted[5];
     extent[5] = last - voxels.wanted[4];
   }
-  this->Voxels->UpdateExtent(extent.data());
+  if (!this->isRead(extent.data(), progress))
+  {
+    return;
+  }
   if (!this->Error.empty())
   {
     throw Problem(this->Error);

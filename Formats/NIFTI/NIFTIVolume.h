@@ -43,6 +43,8 @@ private:
   // Whether VTK reads slices from the last to the first.
   bool reversesSlices() const;
 
+  bool isRead(int extent[6], const Progress& progress);
+
   std::string Error; // of Voxels
   vtkNew<vtkCallbackCommand> KeepError;
   vtkNew<vtkNIFTIImageReader> Voxels; // all volumes of a time series as components

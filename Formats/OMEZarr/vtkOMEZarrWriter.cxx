@@ -195,8 +195,12 @@ bool vtkOMEZarrWriter::TakePiece()
   const std::size_t number = this->Work->next++;
   const bool isLast = this->Work->next == this->Work->pieces.size();
   const Piece& piece = this->Work->pieces[number];
-  number == 0 ? requirePart(image, piece.extent)
-              : bringPart(this->GetInputInformation(0, 0), piece.extent);
+  const std::string lacking = problemOf([&] {
+    number == 0 ? requirePart(image, piece.extent)
+                : bringPart(this->GetInputInformation(0, 0), piece.extent);
+  });
+  this->RequireGoing(!this->CheckAbort());
+  throwIfAny(lacking);
   if (!isFirstRank())
   {
     return !isLast;

@@ -23,11 +23,16 @@ namespace
 constexpr const char* OtherVolume =
   "copy it again, or convert it to .nii.gz or .nrrd in a program that opens it";
 
+// Between two reports of progress: about a tenth of a second.
+constexpr vtkIdType NumbersAtOnce = 16000000;
+
 // Fills `shown`, whose extent may be a part of the whole, from the voxels as the file orders them.
+// False: `progress` said stop.
 template <typename StoredType, typename ShownType, typename Convert>
-void moveVoxels(vtkImageData* stored, vtkImageData* shown, const RasGrid& geometry,
-  int firstComponent, const Convert& convert)
+bool moveVoxels(const StoredVoxels& voxels, vtkImageData* shown, const RasGrid& geometry,
+  const Convert& convert, const Progress& progress)
 {
+  vtkImageData* stored = voxels.image;
   const std::array<int, 3> dimensions{ geometry.grid.dimensions.x, geometry.grid.dimensions.y,
     geometry.grid.dimensions.z };
   vtkIdType increments[3];
@@ -36,7 +41,7 @@ void moveVoxels(vtkImageData* stored, vtkImageData* shown, const RasGrid& geomet
   int storedExtent[6];
   stored->GetExtent(storedExtent);
   const auto* const numbers = static_cast<StoredType*>(stored->GetScalarPointer());
-  vtkIdType first = firstComponent; // of the voxel 0, 0, 0 of the grid; it need not be there
+  vtkIdType first = voxels.firstComponent; // of the voxel 0, 0, 0 of the grid; it need not be there
   for (int axis = 0; axis < 3; ++axis)
   {
     const vtkIdType forward = increments[geometry.voxelAxis[axis]];
@@ -47,7 +52,7 @@ void moveVoxels(vtkImageData* stored, vtkImageData* shown, const RasGrid& geomet
   int extent[6];
   shown->GetExtent(extent);
   const int components = shown->GetNumberOfScalarComponents();
-  parallelFor(extent[4], extent[5] + 1, 1, [&](vtkIdType zBegin, vtkIdType zEnd) {
+  const auto moveSlices = [&](vtkIdType zBegin, vtkIdType zEnd) {
     for (int z = static_cast<int>(zBegin); z < zEnd; ++z)
     {
       for (int y = extent[2]; y <= extent[3]; ++y)
@@ -64,7 +69,19 @@ void moveVoxels(vtkImageData* stored, vtkImageData* shown, const RasGrid& geomet
         }
       }
     }
-  });
+  };
+  const vtkIdType ofSlice = std::max<vtkIdType>(
+    components * vtkIdType{ extent[1] - extent[0] + 1 } * (extent[3] - extent[2] + 1), 1);
+  const vtkIdType atOnce = std::max<vtkIdType>(NumbersAtOnce / ofSlice, 1);
+  for (vtkIdType z = extent[4]; z <= extent[5]; z += atOnce)
+  {
+    if (z > extent[4] && !progress(1.0)) // of what is read, all
+    {
+      return false;
+    }
+    parallelFor(z, std::min<vtkIdType>(z + atOnce, extent[5] + 1), 1, moveSlices);
+  }
+  return true;
 }
 
 // Whether float32 would round such numbers: it has 24 bits for digits.
@@ -72,18 +89,18 @@ template <typename T>
 constexpr bool needsDouble = sizeof(T) >= 4 && !std::is_same_v<T, float>;
 
 template <typename T>
-void moveVoxelsOf(vtkImageData* stored, vtkImageData* shown, const RasGrid& geometry,
-  int firstComponent, const Rescaling& rescaling)
+bool moveVoxelsOf(const StoredVoxels& stored, vtkImageData* shown, const RasGrid& geometry,
+  const Rescaling& rescaling, const Progress& progress)
 {
   if (!rescaling.isNeeded())
   {
-    moveVoxels<T, T>(stored, shown, geometry, firstComponent, [](T value) { return value; });
-    return;
+    return moveVoxels<T, T>(stored, shown, geometry, [](T value) { return value; }, progress);
   }
   using Shown = std::conditional_t<needsDouble<T>, double, float>;
-  moveVoxels<T, Shown>(stored, shown, geometry, firstComponent, [&rescaling](T value) {
+  const auto rescaled = [&rescaling](T value) {
     return static_cast<Shown>(rescaling.slope * static_cast<double>(value) + rescaling.intercept);
-  });
+  };
+  return moveVoxels<T, Shown>(stored, shown, geometry, rescaled, progress);
 }
 }
 
@@ -273,10 +290,15 @@ void PlacedVolume::read(
     return;
   }
   image->AllocateScalars(this->scalarType(), this->Header.components);
+  bool isWhole = false;
   switch (stored.image->GetScalarType())
   {
-    vtkTemplateMacro(moveVoxelsOf<VTK_TT>(
-      stored.image, image, this->Geometry, stored.firstComponent, this->Header.rescaling));
+    vtkTemplateMacro(isWhole = moveVoxelsOf<VTK_TT>(
+                       stored, image, this->Geometry, this->Header.rescaling, progress));
+  }
+  if (!isWhole)
+  {
+    image->GetPointData()->SetScalars(nullptr); // stopped
   }
 }
 

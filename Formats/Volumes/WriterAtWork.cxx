@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Volumes/WriterAtWork.h"
 
+#include "vtkAlgorithm.h"
+
 namespace brainshift
 {
 namespace
@@ -21,5 +23,14 @@ WriterAtWork::~WriterAtWork()
 vtkAlgorithm* WriterAtWork::find()
 {
   return Writer;
+}
+
+bool WriterAtWork::goesOn()
+{
+  if (Writer)
+  {
+    Writer->UpdateProgress(Writer->GetProgress());
+  }
+  return !Writer || !Writer->GetAbortExecute();
 }
 }

@@ -21,6 +21,12 @@ public:
 
   /** Null: none is at work. It stops when its AbortExecute is set. */
   static vtkAlgorithm* find();
+
+  /**
+   * Lets the writer at work, if there is one, report its progress while its input is read. False:
+   * it is to stop, so nobody waits for what is read.
+   */
+  static bool goesOn();
 };
 }
 

@@ -7,6 +7,7 @@
 #include "Common/SharedArray.h"
 #include "Common/WorldAxes.h"
 #include "Formats/Volumes/FinerLevels.h"
+#include "Formats/Volumes/WriterAtWork.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -486,9 +487,11 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
       nearestIndex(times, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
     shown->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), times[volume]);
   }
-  const auto progress = [this](double fraction) {
+  bool isWanted = true;
+  const auto progress = [this, &isWanted](double fraction) {
     this->UpdateProgress(fraction);
-    return !this->GetAbortExecute();
+    isWanted = isWanted && brainshift::WriterAtWork::goesOn();
+    return isWanted && !this->GetAbortExecute();
   };
   this->reading([&] {
     this->Stored->read(
@@ -496,7 +499,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   });
   if (!shown->GetPointData()->GetScalars())
   {
-    return 0; // stopped
+    return isWanted ? 0 : 1; // stopped; without points, it is read when it is asked for again
   }
   if (!this->Stored->damage().empty() && this->SaidDamages.insert(this->Stored->damage()).second)
   {

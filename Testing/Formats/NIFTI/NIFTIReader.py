@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that ParaView opens .nii.gz with our reader and puts the volume at the right place, and
-# that a missing file gives an error that names it.
+# that a missing file gives an error that names it, and that reading can be stopped.
 import os
 import tempfile
 
@@ -47,5 +47,33 @@ def test_missing_file_is_named():
     assert reader.GetDataInformation().GetNumberOfPoints() == 0
 
 
+def test_reading_can_be_stopped():
+    reader = NIFTIVolumeReader(FileName=HEAD).GetClientSideObject()  # noqa: F821 from the plugin
+    reader.UpdateInformation()
+    seen = []
+
+    def stop(caller, _):
+        seen.append(caller.GetProgress())
+        if len(seen) == 5:
+            caller.SetAbortExecute(1)
+    observer = reader.AddObserver("ProgressEvent", stop)
+    previous = vtkOutputWindow.GetInstance()
+    window = vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(window)
+    try:
+        reader.Update()
+    finally:
+        vtkOutputWindow.SetInstance(previous)
+    assert "was stopped. Nothing is shown" in window.GetOutput(), window.GetOutput()
+    assert reader.GetOutput().GetNumberOfPoints() == 0
+    assert seen == sorted(seen) and 0.0 < seen[3] < 0.5, seen
+    reader.RemoveObserver(observer)
+    reader.Modified()
+    reader.Update()
+    assert reader.GetOutput().GetDimensions() == (160, 232, 160)
+    assert abs(reader.GetOutput().GetScalarRange()[1] - LARGEST_INTENSITY) < 1e-3
+
+
 test_opens_with_our_reader()
 test_missing_file_is_named()
+test_reading_can_be_stopped()

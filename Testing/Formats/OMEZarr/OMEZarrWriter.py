@@ -243,11 +243,11 @@ def nifti(name="source.nii.gz", shift=0):
 
 
 def stopped(source, path, after):
-    """Writes, and stops after some reports of progress. Returns the reason."""
+    """Writes, and stops after some reports of progress, once voxels come. Returns the reason."""
     seen = []
 
     def progress(fraction):
-        seen.append(fraction)
+        seen.extend([fraction] if fraction > 0.0 else [])
         return len(seen) <= after
     try:
         brainshift.pyramid(source, path, progress=progress)
@@ -325,6 +325,43 @@ def test_stopped_and_continued():
     assert (array_of(path, "0") == values).all()
     assert not os.path.exists(path + "/brainshift-unfinished.json")
     assert not [name for _, _, names in os.walk(path) for name in names if name.endswith(".part")]
+
+
+def test_stopped_while_the_input_is_read():
+    """Of a file that takes long, before the first chunk and within a later piece. The input is read
+    again when somebody else asks for it."""
+    import nibabel
+    values = zarr_files.values_of((66, 70, 130), "int16")
+    file = scratch("long.nii")
+    nibabel.save(nibabel.Nifti1Image(values.T, numpy.diag((-1.0, -1.0, 1.0, 1))), file)
+    path = target("reading.ome.zarr")
+    calls = []
+    try:
+        brainshift.pyramid(file, path, progress=lambda _: calls.append(1) or False)
+        raise AssertionError("not stopped")
+    except OSError as error:
+        assert "was stopped" in str(error), error
+    assert len(calls) < 6 and not os.path.exists(path), calls  # VTK adds an end
+    reader = simple.NIFTIVolumeReader(FileName=file)
+    writer = servermanager.writers.OMEZarrWriter(Input=reader, FileName=path, MemoryLimit=0.0)
+    own, fractions = writer.GetClientSideObject(), []
+
+    def stop(*_):
+        fractions.append(own.GetProgress())
+        if fractions[0] < fractions[-1] == fractions[-2]:  # the next piece is read
+            own.SetAbortExecute(1)
+    own.AddObserver("ProgressEvent", stop)
+    with messages():
+        writer.UpdatePipeline()
+    writer.SMProxy.UpdatePropertyInformation()
+    assert "was stopped" in writer.GetPropertyValue("Problem"), writer.GetPropertyValue("Problem")
+    assert fractions[-2] == fractions[-3] < 0.9, fractions  # VTK adds an end
+    own_reader = reader.GetClientSideObject()
+    own_reader.UpdateWholeExtent()
+    image = own_reader.GetOutputDataObject(0)
+    assert image.GetDimensions() == (130, 70, 66), image.GetDimensions()
+    found = zarr_files.numbers_of(image)
+    assert (numpy.sort(found, axis=None) == numpy.sort(values, axis=None)).all()
 
 
 def test_another_source_begins_anew():
