@@ -385,13 +385,16 @@ void StreamedBricks::report(GpuTask& gpu, const ReadBrick& read)
   }
 }
 
-void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures)
+// Only the part of the picture where a brick came is cast again, unless another one had to go.
+void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures, SceneBricks& bricks)
 {
   if (read.numbers.empty())
   {
     this->Failed[read.brick] = Clock::now() + FileMendsIn;
+    this->Changes += 1; // its rays name others
     return;
   }
+  const bool isFull = this->Table.count() == this->Table.capacity();
   // A brick that an earlier view asked for is the first to go.
   const bool isWanted =
     std::find(this->Wanted.begin(), this->Wanted.end(), read.brick) != this->Wanted.end();
@@ -410,6 +413,8 @@ void StreamedBricks::place(const ReadBrick& read, TissueTextures& textures)
       floats ? static_cast<const void*>(read.numbers.floats.data())
              : read.numbers.sixteenBits.data() });
   textures.widenRanges(read.ranges.first, read.ranges.found);
+  this->Changes += isFull ? 1 : 0;
+  bricks.arrived.push_back(read.brick);
 }
 
 void StreamedBricks::uploadPages()
@@ -441,8 +446,7 @@ void StreamedBricks::upload(GpuTask& gpu, TissueTextures& textures, SceneBricks&
   for (const ReadBrick& read :
     this->Loader->take(gpu.moving ? MostBricksInPicture / 16 : MostBricksInPicture))
   {
-    this->place(read, textures);
-    this->Changes += 1;
+    this->place(read, textures, bricks);
     this->report(gpu, read);
   }
   this->uploadPages();
@@ -485,6 +489,7 @@ std::optional<double> StreamedBricks::numberAt(vtkWindow* window, const glm::dve
 
 void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
 {
+  this->AsksAgain = false;
   if (!this->Level || !this->Atlas)
   {
     return;
@@ -530,7 +535,7 @@ void StreamedBricks::finish(const std::vector<glm::vec2>& wishes)
     return;
   }
   this->Quiet[this->Eye] += 1;
-  this->Changes += this->Quiet[this->Eye] == 1 ? 1 : 0; // a picture with other wishes
+  this->AsksAgain = this->Quiet[this->Eye] == 1;
 }
 
 namespace
@@ -663,13 +668,6 @@ bool StreamedBricks::waitForMore(const Clock::time_point& end) const
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return this->wantedByEye() > 0 && (Clock::now() < end || this->Loader->countRead() > 0);
-}
-
-void resetDetail(Counters& counters)
-{
-  counters.gpuLevel = -1;
-  counters.gpuBricks = counters.gpuBricksWanted = counters.gpuBricksRead = 0;
-  counters.gpuBricksLackRoom = counters.gpuBricksComing = 0;
 }
 
 void StreamedBricks::count(Counters& counters) const

@@ -56,7 +56,12 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::optional<FineGrid> levelFor(const Drawn
 FinerBy finerVoxelsBy(vtkImageData* image, const TissueRequest& tissue, bool ofSlices);
 
 /// Begins the counters of bricks anew, which StreamedBricks::count adds to.
-void resetDetail(Counters& counters);
+inline void resetDetail(Counters& counters)
+{
+  counters.gpuLevel = -1;
+  counters.gpuBricks = counters.gpuBricksWanted = counters.gpuBricksRead = 0;
+  counters.gpuBricksLackRoom = counters.gpuBricksComing = 0;
+}
 
 /// Calls for one picture: plan, upload, and finish once it is cast. A picture without them, or one
 /// that failed, calls rest.
@@ -80,6 +85,9 @@ public:
   /// Orders what the pixels of a picture asked for: for each two bricks, one that is not there and
   /// one that is, or a number below 0. Empty: nothing was asked.
   void finish(const std::vector<glm::vec2>& wishes);
+
+  /// The rays of the last picture are to ask once more, each for another brick.
+  bool asksAgain() const { return this->AsksAgain; }
 
   /// Nothing more is wanted until the next plan.
   void rest() { this->Asks = false; }
@@ -131,7 +139,7 @@ private:
   void chooseLevel(const BrickView& view, const TissueRequest& tissue);
   bool allocate(GpuTask& gpu);
   void forgetBricks();
-  void place(const ReadBrick& read, TissueTextures& textures);
+  void place(const ReadBrick& read, TissueTextures& textures, SceneBricks& bricks);
   std::vector<int> inOrder(const std::map<int, int>& pixels);
   void report(GpuTask& gpu, const ReadBrick& read);
   void uploadPages();
@@ -165,7 +173,8 @@ private:
   int Eye = 0;                               // of the last picture
   bool IsOfBoth = false;
   std::int64_t View = 0;    // counts views
-  std::int64_t Changes = 0; // counts changes of what is there
+  std::int64_t Changes = 0; // counts changes of what is there, but for bricks that came
+  bool AsksAgain = false;
   int Pictures = 0;
   std::array<int, 2> Quiet{ 0, 0 };         // pictures of each eye in a row without a wish
   std::array<bool, 2> Full{ false, false }; // its view asks for more than there is room for

@@ -94,6 +94,16 @@ FieldTexture::Bent FieldTexture::bentBy(const FieldRequest& request) const
     cornersOfChange(request.dimensions, this->Current.inCells, request.inCells, margin) };
 }
 
+glm::vec3 FieldTexture::farthestMove() const
+{
+  glm::vec3 longest(0.0f);
+  for (const glm::vec3& displacement : this->Current.inCells)
+  {
+    longest = glm::max(longest, glm::abs(displacement));
+  }
+  return KernelOvershoot * longest;
+}
+
 void FieldTexture::Bent::add(const Bent& other)
 {
   constexpr std::size_t mostCorners = 8192;

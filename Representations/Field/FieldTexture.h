@@ -79,6 +79,9 @@ public:
   /// What is added to the offsets.
   const FineTextures& fine() const { return this->Fine; }
 
+  /// How far tissue may be from where it rests along each axis, lattice cells.
+  glm::vec3 farthestMove() const;
+
   /// Nodes that the last update or correction computed.
   const IndexBox& changed() const { return this->Changed; }
 

@@ -258,6 +258,18 @@ void Picture::bend(const FieldTexture::Bent& bent)
   this->Bent.add(bent);
 }
 
+void Picture::castAgain()
+{
+  if (this->LastWasWhole)
+  {
+    this->forget();
+  }
+  else
+  {
+    this->Again = enclosing(this->Again, this->LastPart);
+  }
+}
+
 bool Picture::cast(
   GpuTask& gpu, const DrawnVolume& drawn, const PictureWish& wish, RayCastScene& scene)
 {
@@ -284,7 +296,7 @@ bool Picture::canKeep(
   PictureStamp::Change change, const PictureWish& wish, const RayCastScene& scene)
 {
   if (scene.image.countSamples || !this->images().hold(scene) ||
-    (!this->isBent() && this->RoughPart.empty() && !wish.keep))
+    (!this->isBent() && this->RoughPart.empty() && this->Again.empty() && !wish.keep))
   {
     return false;
   }
@@ -317,6 +329,8 @@ bool Picture::castAll(GpuTask& gpu, const PictureWish& wish, RayCastScene& scene
   this->Mixed = false;
   this->RoughPart = scene.image.jitter ? partOf({ glm::ivec2(0), wish.size }) : PixelPart();
   this->CastMoving = scene.image.jitter;
+  this->LastWasWhole = true;
+  this->Again = PixelPart();
   this->Occlusion.change({ glm::ivec2(0), wish.size });
   return cast;
 }
@@ -346,6 +360,7 @@ PixelPart Picture::changedPart(bool moving, const RayCastScene& scene) const
   const PixelBox filled = enclosing(scene.image.part.box, this->images().filled());
   PixelPart part =
     this->Bent.all ? partOf(filled) : pixelsBetween(this->Bent.corners, this->Space, scene);
+  part = enclosing(part, this->Again);
   if (!moving)
   {
     part = enclosing(part, this->RoughPart);
@@ -387,6 +402,9 @@ bool Picture::castChanged(GpuTask& gpu, const PictureWish& wish, RayCastScene& s
     this->RoughPart = PixelPart();
   }
   this->CastMoving = this->CastMoving || (moving && !part.empty());
+  this->LastPart = part;
+  this->LastWasWhole = false;
+  this->Again = PixelPart();
   this->Occlusion.change(part.box);
   this->Bent = FieldTexture::Bent();
   return done;

@@ -107,6 +107,9 @@ public:
   /// The next picture is cast as a whole.
   void forget() { this->Stamp.forget(); }
 
+  /// The next picture casts what the last one cast, too: its rays ask for other bricks.
+  void castAgain();
+
   /// Casts what has changed and fills in the image of the scene. False if a shader does not compile
   /// or an image cannot be made.
   bool cast(GpuTask& gpu, const DrawnVolume& drawn, const PictureWish& wish, RayCastScene& scene);
@@ -150,6 +153,9 @@ private:
   TextureBox Space;        // the space that tissue could reach in any part of what Whole holds
   bool Mixed = false;      // parts of what Whole holds had rays that began elsewhere
   PixelPart RoughPart;     // of what Whole holds: not at full quality
+  PixelPart LastPart;      // that was cast last
+  bool LastWasWhole = true;
+  PixelPart Again; // is cast once more
   brainshift::Occlusion Occlusion;
   PictureShade Shade;
   bool CastMoving = false; // some of what Whole holds was cast while something moved

@@ -137,6 +137,10 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
       return false;
     }
     this->Bricks.finish(this->Picture.takeWishes());
+    if (this->Bricks.asksAgain())
+    {
+      this->Picture.castAgain();
+    }
   } while (!isLast && this->Bricks.waitForMore(capture.deadline()));
   if (waits)
   {
@@ -219,6 +223,37 @@ DrawnValues valuesToCrop(const VolumeRequest& request)
 }
 }
 
+namespace
+{
+// Where bricks that came can be seen. `farthest`: lattice cells that tissue may have moved.
+FieldTexture::Bent whereBricksCame(
+  const SceneBricks& bricks, const SceneField& field, const glm::vec3& farthest)
+{
+  constexpr double margin = 4.0; // voxels; what lies outside of the level reads its first and last
+  const glm::ivec3 count(glm::ceil(bricks.voxels / double{ StreamedSide }));
+  const auto latticeFromVoxel = [&](const glm::dvec3& voxel) {
+    return glm::vec3(
+      (voxel - bricks.voxelOfTextureZero) / bricks.voxelFromTexture * field.latticeFromTexture +
+      field.latticeOfTextureZero);
+  };
+  FieldTexture::Bent bent;
+  for (const int brick : bricks.arrived)
+  {
+    const glm::dvec3 first(
+      glm::ivec3(brick % count.x, brick / count.x % count.y, brick / (count.x * count.y)) *
+      StreamedSide);
+    const glm::vec3 low = latticeFromVoxel(first - margin);
+    const glm::vec3 high = latticeFromVoxel(first + (StreamedSide + margin));
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const glm::vec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      bent.corners.push_back(glm::mix(low - farthest, high + farthest, side));
+    }
+  }
+  return bent;
+}
+}
+
 // What is drawn of the volume, with the finer level that suits the view.
 TissueRequest VolumeDevice::planBricks(
   GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, const MemoryNeed& need)
@@ -252,6 +287,8 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
     return false;
   }
   this->Picture.bend(change.bent); // the next picture needs it if this one fails
+  this->Picture.bend(whereBricksCame(scene.bricks, scene.field,
+    deformation.deformed ? this->Deformation.field().farthestMove() : glm::vec3(0.0f)));
   if (!this->Tissue.updateBricks(gpu, tissue, scene.field, change.computed, scene.skipping))
   {
     return false;

@@ -127,7 +127,8 @@ struct SceneBricks
   glm::dvec3 voxelFromTexture{ 1.0 }; ///< Its voxels.
   glm::dvec3 voxelOfTextureZero{ 0.0 };
   glm::ivec2 seed{ 0 };     ///< Which bricks rays ask for, of several.
-  std::int64_t changes = 0; ///< Counts changes of what is there.
+  std::int64_t changes = 0; ///< Counts changes of what is there, but for what `arrived`.
+  std::vector<int> arrived; ///< Bricks that came since the last picture, x fastest.
   bool asks = false;        ///< Rays ask for bricks.
 };
 

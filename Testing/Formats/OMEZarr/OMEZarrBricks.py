@@ -239,6 +239,41 @@ def test_bent_while_it_loads():
     again.close()
 
 
+def test_a_stroke_casts_what_it_changed():
+    """Also where bricks come for it, and when its rays ask once more."""
+    path = store()
+    filter = simple.FreeFormDeformation(Input=coarse(path), LatticeDimensions=[19] * 3)
+    shown = Shown(filter)
+    _, before = shown.detail()
+
+    def cast(change):
+        former = brainshift.counters(shown.display)["pixelsCast"]
+        change()
+        shown.view.SMProxy.StillRender()
+        return brainshift.counters(shown.display)["pixelsCast"] - former
+
+    def turn():
+        shown.view.CameraPosition = [place + 0.01 for place in shown.view.CameraPosition]
+
+    def stroke(mm):
+        filter.Strokes = brainshift.soft((48.0, 56.0, 60.0), (mm, 0, 0), 9.0)
+    stroke(1.0)  # now there is a field
+    whole = cast(turn)
+    shown.detail()
+    parts = [cast(lambda mm=mm: stroke(mm)) for mm in (2.0, 3.0, 4.0)]
+    print("pixels of the picture, of strokes", whole, parts, flush=True)
+    image, state = shown.detail()
+    assert max(parts) < 0.6 * whole, (parts, whole)
+    again = Shown(simple.FreeFormDeformation(
+        Input=coarse(path), LatticeDimensions=[19] * 3, Strokes=filter.Strokes))
+    again.view.CameraPosition = shown.view.CameraPosition
+    other, fresh = again.detail()
+    assert fresh["gpuBricks"] > 8 and state["gpuBricks"] >= before["gpuBricks"]
+    assert numpy.array_equal(image, other)
+    shown.close()
+    again.close()
+
+
 def test_another_level_while_bricks_arrive():
     source = reader(store(), MemoryLimit=0.05)
     with messages():  # unknown sides
