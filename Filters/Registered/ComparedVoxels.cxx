@@ -29,7 +29,7 @@ namespace
 {
 constexpr double FewestVoxels = 4e6; // that are left
 
-// Floats that a registration holds of a volume while it reads it: the image, and its own copy.
+// Floats for each voxel while it is read: the image, the registration's copy, one to spare.
 constexpr double FloatsOfVoxel = 3.0;
 
 constexpr const char* NoScalars = "The volume has no point scalars of one component";
