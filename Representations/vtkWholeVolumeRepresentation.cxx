@@ -17,6 +17,7 @@
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkOutlineSource.h"
+#include "vtkPVDataDeliveryManager.h"
 #include "vtkPVLODVolume.h"
 #include "vtkPVRenderView.h"
 #include "vtkPVSession.h"
@@ -150,6 +151,10 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
         ShareOut(group, input, output);
       }
     }
+    else if (request == vtkPVView::REQUEST_RENDER() && this->GetNeedsUpdate())
+    {
+      this->Overtake(input);
+    }
     failed.end();
     const int result = this->Superclass::ProcessViewRequest(request, input, output);
     if (result)
@@ -158,6 +163,19 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
     }
     return result;
   });
+}
+
+// A client draws a stroke under the hand ahead of the view's update, for a far server answers each
+// question of an update one round trip later. Its data comes here.
+void vtkWholeVolumeRepresentation::Overtake(vtkInformation* input)
+{
+  auto view = vtkPVView::SafeDownCast(input->Get(vtkPVView::VIEW()));
+  vtkNew<vtkInformation> output;
+  if (view && this->ProcessViewRequest(vtkPVView::REQUEST_UPDATE(), input, output))
+  {
+    unsigned int volume[] = { this->GetUniqueIdentifier(), 0 }; // and its port
+    view->GetDeliveryManager()->Deliver(/*use_low_res*/ 0, 2, volume);
+  }
 }
 
 void vtkWholeVolumeRepresentation::SetRankHalo(double halo)

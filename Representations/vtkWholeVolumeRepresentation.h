@@ -107,6 +107,7 @@ private:
   using Group = std::vector<vtkWholeVolumeRepresentation*>; // what a view shows, one or more
   struct Taken;
 
+  void Overtake(vtkInformation* input);
   Group GroupIn(vtkPVRenderView* view);
   static std::string WhyWholeIn(vtkPVRenderView* view, const Group& group);
   static void ChooseWhoDraws(vtkPVRenderView* view, const Group& group);

@@ -1,24 +1,99 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Edits/LivePicture.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Workarounds/Updates.h"
 
 #include <pqApplicationCore.h>
+#include <pqOutputPort.h>
 #include <pqPipelineSource.h>
 #include <pqProgressManager.h>
 #include <pqUndoStack.h>
 #include <pqView.h>
 
+#include <vtkClientServerStream.h>
+#include <vtkPVRenderView.h>
+#include <vtkPVSession.h>
 #include <vtkSMSession.h>
 #include <vtkSMViewProxy.h>
 
+#include <QSet>
 #include <QSignalBlocker>
 #include <QWidget>
 
+#include <algorithm>
+#include <vector>
+
 namespace brainshift
 {
-void drawRoughly(pqView* view)
+namespace
+{
+// Adds the displays by which a view shows a source and what is made of it.
+void addDisplays(pqPipelineSource* source, pqView* view, QSet<pqPipelineSource*>& seen,
+  std::vector<pqDataRepresentation*>& displays)
+{
+  if (!source || seen.contains(source))
+  {
+    return;
+  }
+  seen.insert(source);
+  for (pqOutputPort* port : source->getOutputPorts())
+  {
+    for (pqDataRepresentation* display : port->getRepresentations(view))
+    {
+      if (display->isVisible())
+      {
+        displays.push_back(display);
+      }
+    }
+  }
+  for (pqPipelineSource* consumer : source->getAllConsumers())
+  {
+    addDisplays(consumer, view, seen, displays);
+  }
+}
+
+// Whether one process of a server draws a moving picture, and no display but bent volumes changes.
+bool isDrawnByServer(pqView* view, const std::vector<pqDataRepresentation*>& displays)
+{
+  vtkSMProxy* proxy = view->getProxy();
+  vtkSMSession* session = proxy->GetSession();
+  auto drawn = vtkPVRenderView::SafeDownCast(proxy->GetClientSideObject());
+  constexpr vtkTypeUInt32 Servers = vtkPVSession::DATA_SERVER | vtkPVSession::RENDER_SERVER;
+  return drawn && !displays.empty() && (drawn->GetInteractiveRenderProcesses() & Servers) != 0 &&
+    session->IsA("vtkSMSessionClient") &&
+    session->GetNumberOfProcesses(vtkPVSession::DATA_SERVER) == 1 &&
+    std::all_of(displays.begin(), displays.end(),
+      [](pqDataRepresentation* display) { return showsVolume(display) || showsSlices(display); });
+}
+
+// InteractiveRender updates the view first: the server is asked for sizes, bounds and progress, one
+// round trip after the other. This asks for the picture alone, in one round trip. The displays
+// bring their data on the way (vtkWholeVolumeRepresentation); the next update of the view does the
+// rest.
+void drawAhead(vtkSMViewProxy* view, const std::vector<pqDataRepresentation*>& displays)
+{
+  vtkSMSession* session = view->GetSession();
+  auto drawn = vtkPVRenderView::SafeDownCast(view->GetClientSideObject());
+  session->PrepareProgress();
+  for (pqDataRepresentation* display : displays)
+  {
+    vtkSMProxy* proxy = display->getProxy();
+    vtkClientServerStream stream;
+    stream << vtkClientServerStream::Invoke << VTKOBJECT(proxy) << "MarkModified"
+           << vtkClientServerStream::End;
+    session->ExecuteStream(proxy->GetLocation(), stream);
+  }
+  vtkClientServerStream stream;
+  stream << vtkClientServerStream::Invoke << VTKOBJECT(view) << "InteractiveRender"
+         << vtkClientServerStream::End;
+  session->ExecuteStream(drawn->GetInteractiveRenderProcesses(), stream);
+  session->CleanupPendingProgress();
+}
+
+// `changed`: what the view shows that is not up to date.
+void draw(pqView* view, const std::vector<pqDataRepresentation*>& changed)
 {
   vtkSMViewProxy* proxy = view->getViewProxy();
   if (proxy && !proxy->GetSession()->GetPendingProgress() && proxy->GetRenderWindow() &&
@@ -29,6 +104,11 @@ void drawRoughly(pqView* view)
     // picture ParaView requests the sizes of all visible data.
     pqProgressManager* progress = pqApplicationCore::instance()->getProgressManager();
     progress->lockProgress(view);
+    if (isDrawnByServer(view, changed))
+    {
+      drawAhead(proxy, changed);
+    }
+    else
     {
       const QSignalBlocker quiet(view);
       proxy->InteractiveRender();
@@ -39,6 +119,12 @@ void drawRoughly(pqView* view)
   {
     view->render();
   }
+}
+}
+
+void drawRoughly(pqView* view)
+{
+  draw(view, {});
 }
 
 void drawMoving(pqPipelineSource* source, vtkSMProxy* measured)
@@ -58,7 +144,12 @@ void drawMoving(pqPipelineSource* source, vtkSMProxy* measured)
     {
       quiet.add(display->getProxy());
     }
-    drawRoughly(view);
+    QSet<pqPipelineSource*> seen;
+    std::vector<pqDataRepresentation*> changed;
+    addDisplays(source, view, seen, changed);
+    addDisplays(measured ? serverManagerModel()->findItem<pqPipelineSource*>(measured) : nullptr,
+      view, seen, changed);
+    draw(view, changed);
   }
 }
 

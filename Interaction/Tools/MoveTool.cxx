@@ -186,11 +186,11 @@ bool MoveTool::press(const HandEvent& event)
 
 void MoveTool::drag(const HandEvent& event)
 {
-  const std::optional<Grid> lattice = this->Bench.probe.lattice();
-  if (!lattice || this->Selected.empty())
+  if (this->Selected.empty())
   {
     return;
   }
+  const Grid& lattice = this->SelectedOf; // as the press found it: a far server answers late
   const glm::dvec3 moved = this->pulled(this->Held, pixelOf(event));
   StrokeEditor::Strokes strokes;
   for (const ControlPoint& point : this->Selected)
@@ -199,8 +199,8 @@ void MoveTool::drag(const HandEvent& event)
     stroke.tool = Tool::Move;
     stroke.anchor = point.rest;
     stroke.vector = this->beforeStrength(moved);
-    stroke.axis = lattice->spacing;
-    stroke.major = widest(*lattice);
+    stroke.axis = lattice.spacing;
+    stroke.major = widest(lattice);
     strokes.push_back(stroke);
   }
   this->highlight(nullptr, moved);

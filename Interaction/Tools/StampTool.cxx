@@ -38,6 +38,7 @@ private:
 
   Stroke Latest;                   ///< The stroke that is outlined, under the hand or made last.
   std::optional<glm::dvec3> Slice; ///< Normal of its slice.
+  glm::dvec3 Interest{ 0.0 };      ///< What it aims at, mm, as long as Latest stays where it is.
   double Amount = 0.0;             ///< Displacement (mm). Pull is positive.
   bool Made = false;               ///< The last stroke of the list is Latest.
   bool Aims = false;               ///< Latest has an axis: the point of interest is not there.
@@ -53,7 +54,8 @@ bool StampTool::outline(const glm::dvec2& pixel)
   {
     return false;
   }
-  const glm::dvec3 fromInterest = this->interestFrom(*spot) - spot->position;
+  this->Interest = this->interestFrom(*spot);
+  const glm::dvec3 fromInterest = this->Interest - spot->position;
   constexpr double nearest = 1e-3; // mm; a nearer point gives no direction
   this->Aims = glm::length(fromInterest) >= nearest;
   // Without a direction the ellipsoid keeps its axis, so that it does not vanish under the cursor.
@@ -103,11 +105,10 @@ bool StampTool::isAtLastStroke(const glm::dvec2& pixel) const
 void StampTool::show(const Stroke& stroke, double amount)
 {
   vtkLatticeRepresentation& drawing = this->Bench.drawing;
-  const glm::dvec3 interest = this->interestFrom({ stroke.anchor, this->Slice });
   const glm::dvec3 away = -glm::normalize(stroke.axis);
   this->showStroke(stroke, this->Slice);
-  std::vector<Polyline> marks = cross(interest, CrossShare * stroke.major);
-  marks.push_back({ interest, stroke.anchor });
+  std::vector<Polyline> marks = cross(this->Interest, CrossShare * stroke.major);
+  marks.push_back({ this->Interest, stroke.anchor });
   marks.push_back({ stroke.anchor, stroke.anchor + amount * away });
   drawing.SetLines(vtkLatticeRepresentation::Mark, marks);
   drawing.SetHighlights({ stroke.anchor + amount * away });

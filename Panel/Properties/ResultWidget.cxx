@@ -28,6 +28,9 @@ namespace brainshift
 namespace
 {
 constexpr qint64 FiguresMs = 250; // at least, from one update to the next: faster cannot be read
+// A far server answers each figure a round trip later, and the hand waits for them. So they may
+// take a tenth of a drag's time.
+constexpr qint64 DragsShare = 10;
 
 void showGraded(QLabel* label, const QString& text, Grade grade)
 {
@@ -126,10 +129,17 @@ double ResultWidget::figure(const char* property)
 
 void ResultWidget::showFiguresSoon()
 {
-  if (this->isVisible() && !this->FiguresSoon.isActive())
+  if (!this->isVisible())
   {
-    const qint64 passed = this->SinceFigures.isValid() ? this->SinceFigures.elapsed() : FiguresMs;
-    this->FiguresSoon.start(static_cast<int>(std::max<qint64>(FiguresMs - passed, 0)));
+    return;
+  }
+  const bool drags = StrokeEditor::of(this->Source)->isEditing();
+  const qint64 pause = drags ? std::max(FiguresMs, DragsShare * this->FiguresTookMs) : FiguresMs;
+  const qint64 passed = this->SinceFigures.isValid() ? this->SinceFigures.elapsed() : pause;
+  const int wait = static_cast<int>(std::max<qint64>(pause - passed, 0));
+  if (!this->FiguresSoon.isActive() || wait < this->FiguresSoon.remainingTime())
+  {
+    this->FiguresSoon.start(wait);
   }
 }
 
@@ -153,6 +163,7 @@ void ResultWidget::showFigures()
     showGraded(this->Shortened, advice, Grade::Doubtful);
     this->Shortened->setVisible(!advice.isEmpty());
   }
+  this->FiguresTookMs = this->SinceFigures.elapsed();
 }
 
 void ResultWidget::changeEvent(QEvent* event)

@@ -53,6 +53,7 @@ private:
   QTimer
     FiguresSoon; ///< Merges the updates of a drag: the smallest determinant is slow to compute.
   QElapsedTimer SinceFigures;
+  qint64 FiguresTookMs = 0; ///< The last time, until the server had answered all.
   vtkNew<vtkEventQtSlotConnect> Observers;
 };
 }

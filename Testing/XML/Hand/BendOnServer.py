@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the tools bend a volume that a pvserver holds and draws: ParaView's window, connected
-to it, drags with each tool in 3D and in a slice, live, and takes back what it did. The panel offers
-the series of a DICOM folder of the server.
+to it, drags with each tool in 3D and in a slice, live, and takes back what it did. Tissue follows
+the hand within two round trips to the server. The panel offers the series of a DICOM folder of the
+server.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
 import brainshift
+import far_network
 import numpy
 import test_hand as hand
 import window_testing as window
 from brainshift_testing import data, server, server_finds_plugin
 from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 from window_testing import strokes
 
 MIDDLE = (20.0, 20.0, 20.0)
@@ -56,7 +60,17 @@ def show():
     return bent, view, display
 
 
-def drag_with_each_tool():
+def in_window(view):
+    """What the window shows of a view; it draws nothing."""
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(view.GetRenderWindow())
+    grab.ShouldRerenderOff()
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    return vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).astype(float)
+
+
+def drag_with_each_tool(far):
     bent, view, display = show()
     for kind in ("Deformed Volume", "Deformed Slices"):
         display.SetRepresentationType(kind)
@@ -64,10 +78,10 @@ def drag_with_each_tool():
         simple.Render(view)
         hand.wait(100)
         for tool in (hand.SOFT, hand.STAMP, hand.MOVE):
-            drag(bent, view, display, tool, kind)
+            drag(far, bent, view, display, tool, kind)
 
 
-def drag(bent, view, display, tool, kind):
+def drag(far, bent, view, display, tool, kind):
     hand.take(tool)
     number = {hand.MOVE: brainshift.MOVE, hand.SOFT: brainshift.SOFT,
               hand.STAMP: brainshift.STAMP}[tool]
@@ -79,13 +93,26 @@ def drag(bent, view, display, tool, kind):
     drawn = brainshift.counters(display)["latticeUploads"]
     hand.hover(start)
     hand.press(start)
-    for step in (5, 10, 15):
+    before = in_window(view)
+    hand.drag_to([start[0] + 2, start[1] + 2])
+    hand.wait(50)
+    trips = []
+    for step in (4, 6, 8, 10, 12, 15):
+        last = far.counts()["roundTrips"]
         hand.drag_to([start[0] + step, start[1] + step])
         hand.wait(50)
+        trips.append(far.counts()["roundTrips"] - last)
+    # Beside some of them, the panel asks for its figures.
+    print("round trips of each step with", tool, kind, trips, flush=True)
+    assert min(trips) <= 2, (tool, kind, trips)
     assert len(strokes()) == 1 and strokes()[0][0] == number, (tool, kind, strokes())
     window.until(lambda: brainshift.counters(display)["latticeUploads"] > drawn,
                  f"the server draws {kind} while tool {tool} drags")
+    live = in_window(view)
     hand.release([start[0] + 15, start[1] + 15])
+    hand.wait(300)
+    still = in_window(view)
+    assert abs(live - still).mean() < 0.9 * abs(before - still).mean(), "tissue follows the hand"
     if kind == "Deformed Slices":
         assert abs(strokes()[0][6]) < 1e-5, strokes()
     window.until(lambda: bent.MaximumDisplacement > 0, f"tool {tool} bends {kind}: {strokes()}")
@@ -169,10 +196,10 @@ def lose_the_server():
 
 
 def play():
-    with server(server_finds_plugin()) as (port, _):
-        yield connect, port
+    with server(server_finds_plugin()) as (port, _), far_network.between(port, 0.0) as far:
+        yield connect, far.port
         yield choose_a_series,
-        yield drag_with_each_tool,
+        yield drag_with_each_tool, far
         yield what_lies_under_the_cursor,
         yield turn_the_wheel,
         yield pull_and_pin,
