@@ -72,6 +72,16 @@ struct Grid
     return glm::transpose(this->direction) * vector / this->spacing;
   }
 
+  /** The grid of the middles of blocks of points. Along an axis, the last may reach beyond. */
+  Grid ofBlocks(const glm::ivec3& pointsPerBlock) const
+  {
+    Grid blocks = *this;
+    blocks.dimensions = (this->dimensions + pointsPerBlock - 1) / pointsPerBlock;
+    blocks.spacing = this->spacing * glm::dvec3(pointsPerBlock);
+    blocks.origin = this->worldFromGrid(0.5 * glm::dvec3(pointsPerBlock - 1));
+    return blocks;
+  }
+
   bool operator==(const Grid& other) const
   {
     return this->dimensions == other.dimensions && this->origin == other.origin &&

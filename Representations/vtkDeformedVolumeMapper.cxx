@@ -214,6 +214,21 @@ void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)
   }
 }
 
+namespace
+{
+// Lets a request draw one rank's part. `held`: the voxels that this rank has.
+void askForPart(const DrawnPart& part, vtkImageData* held, VolumeRequest& request)
+{
+  request.part.assign(part.cut.begin(), part.cut.end());
+  request.partTissue.assign(part.bounds.begin(), part.bounds.end());
+  const Extent& whole = part.whole.extent;
+  const int* extent = held->GetExtent();
+  const glm::dvec3 first(extent[0], extent[2], extent[4]);
+  request.wholeLow = glm::dvec3(whole[0], whole[2], whole[4]) - first;
+  request.wholeHigh = glm::dvec3(whole[1], whole[3], whole[5]) - first;
+}
+}
+
 bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem)
 {
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
@@ -252,12 +267,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.wish.countSamples = this->CountSamples;
   if (state.Part)
   {
-    request.part.assign(state.Part->cut.begin(), state.Part->cut.end());
-    const Extent& whole = state.Part->whole.extent;
-    const int* extent = image->GetExtent();
-    const glm::dvec3 first(extent[0], extent[2], extent[4]);
-    request.wholeLow = glm::dvec3(whole[0], whole[2], whole[4]) - first;
-    request.wholeHigh = glm::dvec3(whole[1], whole[3], whole[5]) - first;
+    askForPart(*state.Part, image, request);
   }
   request.wish.occlusion = { this->OcclusionDarkness(), this->OcclusionRadiusOn(image, volume) };
   request.wish.rate = window->GetDesiredUpdateRate();

@@ -28,16 +28,6 @@ glm::ivec3 voxelsPerBlock(const Grid& grid)
   return glm::max(glm::ivec3(glm::round(BlockMm / grid.spacing)), glm::ivec3(1));
 }
 
-// The blocks of a grid. The last one along an axis may have fewer voxels.
-Grid blocksOf(const Grid& grid, const glm::ivec3& perBlock)
-{
-  Grid blocks = grid;
-  blocks.dimensions = (grid.dimensions + perBlock - 1) / perBlock;
-  blocks.spacing = grid.spacing * glm::dvec3(perBlock);
-  blocks.origin = grid.worldFromGrid(0.5 * glm::dvec3(perBlock - 1));
-  return blocks;
-}
-
 bool isEmpty(const Volume& volume, const glm::ivec3& first, const glm::ivec3& perBlock, float low)
 {
   const glm::ivec3 end = glm::min(first + perBlock, volume.grid.dimensions);
@@ -59,7 +49,7 @@ Mask emptyBlocks(const Volume& volume)
 {
   const glm::ivec3 perBlock = voxelsPerBlock(volume.grid);
   Mask blocks;
-  blocks.grid = blocksOf(volume.grid, perBlock);
+  blocks.grid = volume.grid.ofBlocks(perBlock);
   blocks.inside.assign(blocks.grid.count(), Inside);
   const float low = *std::min_element(volume.values.begin(), volume.values.end());
   parallelFor(0, blocks.grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
@@ -280,7 +270,7 @@ Mask coarseTissue(const Volume& volume)
   const glm::ivec3 every =
     glm::max(glm::ivec3(glm::round(CoarseMm / volume.grid.spacing)), glm::ivec3(1));
   Mask tissue;
-  tissue.grid = blocksOf(volume.grid, every);
+  tissue.grid = volume.grid.ofBlocks(every);
   tissue.inside.reserve(tissue.grid.count());
   std::vector<float> some;
   some.reserve(tissue.grid.count());

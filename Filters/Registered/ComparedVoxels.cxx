@@ -3,6 +3,7 @@
 
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/ImageParts.h"
 #include "Common/Numbers.h"
 #include "Common/Parallel.h"
 #include "Common/Problem.h"
@@ -45,14 +46,14 @@ glm::ivec3 sidesOf(const Extent& extent)
   return glm::ivec3(extent[1], extent[3], extent[5]) - firstOf(extent) + 1;
 }
 
-Extent extentOf(const glm::ivec3& first, const glm::ivec3& last)
+Extent extentBetween(const glm::ivec3& first, const glm::ivec3& last)
 {
   return { first.x, last.x, first.y, last.y, first.z, last.z };
 }
 
 Extent allOf(const Grid& grid)
 {
-  return extentOf(glm::ivec3(0), grid.dimensions - 1);
+  return extentBetween(glm::ivec3(0), grid.dimensions - 1);
 }
 
 // The voxels of one average: numbers along an axis, those beyond the volume as its last one.
@@ -137,15 +138,6 @@ glm::ivec3 joinedVoxels(const Grid& grid, double longestMm)
   return static_cast<double>(grid.count()) < all * FewestVoxels ? glm::ivec3(1) : joined;
 }
 
-Grid joinedGrid(const Grid& grid, const glm::ivec3& joined)
-{
-  Grid result = grid;
-  result.dimensions = (grid.dimensions + joined - 1) / joined;
-  result.spacing = grid.spacing * glm::dvec3(joined);
-  result.origin = grid.worldFromGrid(0.5 * glm::dvec3(joined - 1));
-  return result;
-}
-
 vtkDataArray* comparedScalars(vtkImageData* image)
 {
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
@@ -184,13 +176,12 @@ vtkSmartPointer<vtkImageData> averagesOf(
   {
     throw Problem(NoScalars);
   }
-  const Grid grid = joinedGrid(whole.grid, joined);
+  const Grid grid = whole.grid.ofBlocks(joined);
   requireHostMemory("The average of " + sizeText(joined) + " voxels",
     sizeof(float) * static_cast<double>(sidesOf(wanted).x) * sidesOf(wanted).y * sidesOf(wanted).z);
   auto averages = floatsOn(grid, wanted);
-  Extent held{};
-  image->GetExtent(held.data());
-  averageVoxels(comparedScalars(image), { held, whole.extent, joined }, wanted, floatsOf(averages));
+  averageVoxels(
+    comparedScalars(image), { extentOf(image), whole.extent, joined }, wanted, floatsOf(averages));
   averages->GetFieldData()->ShallowCopy(image->GetFieldData());
   return averages;
 }
@@ -211,7 +202,7 @@ bool suits(const glm::dvec3& spacing, const glm::dvec3& finest, double longestMm
 // What reading a level takes; FloatsOfVoxel count what is left of it.
 double bytesToRead(const Grid& grid, int block, int bytesOfNumber, double longestMm)
 {
-  const Grid joined = joinedGrid(grid, joinedVoxels(grid, longestMm));
+  const Grid joined = grid.ofBlocks(joinedVoxels(grid, longestMm));
   const double slab = static_cast<double>(grid.dimensions.x) * grid.dimensions.y * block;
   return slab * bytesOfNumber + FloatsOfVoxel * sizeof(float) * static_cast<double>(joined.count());
 }
@@ -260,7 +251,7 @@ vtkSmartPointer<vtkImageData> readLevel(
 {
   const Grid& grid = level.file->grids()[level.number];
   const glm::ivec3 joined = joinedVoxels(grid, longestMm);
-  const Grid to = joinedGrid(grid, joined);
+  const Grid to = grid.ofBlocks(joined);
   auto image = floatsOn(to, allOf(to));
   const int layers = std::max(1, level.file->blockSide(level.number) / joined.z);
   const Progress all = [](double) { return true; };
@@ -287,7 +278,7 @@ Extent averagesIn(const Extent& part, const Extent& whole, const glm::ivec3& joi
 {
   const glm::ivec3 first = firstOf(part) - firstOf(whole);
   const glm::ivec3 last = first + sidesOf(part) - 1;
-  return extentOf((first + joined - 1) / joined, last / joined);
+  return extentBetween((first + joined - 1) / joined, last / joined);
 }
 
 // The voxels of averages.
@@ -295,7 +286,7 @@ Extent voxelsOf(const Extent& averages, const Extent& whole, const glm::ivec3& j
 {
   const glm::ivec3 first = firstOf(averages) * joined;
   const glm::ivec3 last = (firstOf(averages) + sidesOf(averages)) * joined - 1;
-  return extentOf(first + firstOf(whole), glm::min(last, sidesOf(whole) - 1) + firstOf(whole));
+  return extentBetween(first + firstOf(whole), glm::min(last, sidesOf(whole) - 1) + firstOf(whole));
 }
 
 bool isEmpty(const Extent& extent)
@@ -321,8 +312,7 @@ vtkSmartPointer<vtkImageData> gathered(vtkMultiProcessController* ranks, vtkImag
   {
     return sharedBy(ranks, part, whole, isFirst ? whole.extent : NoVoxels);
   }
-  Extent own = NoVoxels;
-  part->GetExtent(own.data());
+  const Extent own = extentOf(part);
   const Extent wanted = isEmpty(own) ? NoVoxels : averagesIn(own, whole.extent, joined);
   const bool hasAny = !isEmpty(wanted);
   vtkSmartPointer<vtkImageData> averages =
@@ -331,7 +321,7 @@ vtkSmartPointer<vtkImageData> gathered(vtkMultiProcessController* ranks, vtkImag
     averages =
       hasAny ? averagesOf(averages, whole, joined, wanted) : vtkSmartPointer<vtkImageData>::New();
   });
-  const Grid grid = joinedGrid(whole.grid, joined);
+  const Grid grid = whole.grid.ofBlocks(joined);
   return sharedBy(ranks, averages, { grid, allOf(grid) }, isFirst ? allOf(grid) : NoVoxels);
 }
 
@@ -413,9 +403,8 @@ ComparedVoxels ofOne(vtkImageData* image, vtkInformation* information, double lo
   }
   else
   {
-    WholeVolume whole{ gridOf(image) };
-    image->GetExtent(whole.extent.data());
-    result.image = averagesOf(image, whole, joined, allOf(joinedGrid(whole.grid, joined)));
+    const WholeVolume whole{ gridOf(image), extentOf(image) };
+    result.image = averagesOf(image, whole, joined, allOf(whole.grid.ofBlocks(joined)));
   }
   result.whole = gridOf(image);
   return result;

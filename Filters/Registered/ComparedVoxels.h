@@ -52,9 +52,6 @@ VTKBRAINSHIFTFILTERS_EXPORT ComparedVoxels comparedVoxels(
  */
 VTKBRAINSHIFTFILTERS_EXPORT glm::ivec3 joinedVoxels(const Grid& grid, double longestMm);
 
-/** The grid of such averages; the last ones reach beyond the volume. */
-VTKBRAINSHIFTFILTERS_EXPORT Grid joinedGrid(const Grid& grid, const glm::ivec3& joined);
-
 /** Values beyond this are no measurements: a comparison adds up squares, which would overflow. */
 constexpr double LargestComparedValue = 1e17;
 

@@ -13,12 +13,18 @@ namespace
 // as much again for what is farther from the eye.
 constexpr double LargestPixel = 8.0;
 
-// Where points (texture coordinates) are seen in the image.
+// Where points are seen in the image.
 class SeenPoints
 {
 public:
+  // Of points in texture coordinates.
   explicit SeenPoints(const RayCastScene& scene)
-    : ClipFromTexture(scene.frame.clipFromWorld * scene.frame.worldFromTexture)
+    : SeenPoints(scene.frame.clipFromWorld * scene.frame.worldFromTexture, scene)
+  {
+  }
+  // Of points in any coordinates.
+  SeenPoints(const glm::dmat4& clipFromPoint, const RayCastScene& scene)
+    : ClipFromPoint(clipFromPoint)
     , Size(scene.image.size)
   {
   }
@@ -26,7 +32,7 @@ public:
   // False if it lies behind the eye.
   bool add(const glm::dvec3& point)
   {
-    const glm::dvec4 clip = this->ClipFromTexture * glm::dvec4(point, 1.0);
+    const glm::dvec4 clip = this->ClipFromPoint * glm::dvec4(point, 1.0);
     if (clip.w <= 0.0)
     {
       return false;
@@ -60,7 +66,7 @@ public:
   glm::dvec2 turnedHigh = high;
 
 private:
-  glm::dmat4 ClipFromTexture;
+  glm::dmat4 ClipFromPoint;
   glm::dvec2 Size;
 };
 // As placeSeenPixels, of boxes of the scene's own bricks, which are counted from its first one.
@@ -101,6 +107,30 @@ void placeBoxes(const std::vector<IndexBox>& boxes, RayCastScene& scene)
   image.part.box = seen.around().box;
 }
 
+// Leaves only pixels at which this rank's part of the volume can be seen. Around its part, it has
+// voxels for strokes to come.
+void placePart(RayCastScene& scene)
+{
+  constexpr double margin = 0.5; // mm; tissue is where it should be to 0.05 mm
+  const std::vector<double>& part = scene.cuts.partTissue;
+  SeenPoints seen(scene.frame.clipFromWorld, scene);
+  for (int corner = 0; corner < 8 && !part.empty(); ++corner)
+  {
+    glm::dvec3 point;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int side = corner >> axis & 1;
+      point[axis] = part[2 * axis + side] + (side ? margin : -margin);
+    }
+    if (!seen.add(point))
+    {
+      return;
+    }
+  }
+  PixelBox& box = scene.image.part.box;
+  box = part.empty() ? box : overlap(box, seen.around().box);
+}
+
 void placeBoth(RayCastScene& scene, RayCastScene& reference)
 {
   const std::vector<IndexBox>& bricks = scene.skipping.presence->occupiedLayers();
@@ -135,6 +165,7 @@ void placeSeenPixels(RayCastScene& scene)
   else
   {
     placeBoxes(scene.skipping.presence->occupiedLayers(), scene);
+    placePart(scene);
   }
 }
 

@@ -316,6 +316,7 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
   }
   scene.cuts = cutsOf(request.mapper, valuesToCrop(request), scene.frame, space);
   scene.cuts.partPlanes = partPlanesOf(request.part, scene.frame.worldFromTexture);
+  scene.cuts.partTissue = request.partTissue;
   scene.blending = blendingFor(request, tissue, this->Tissue.Textures, scene.frame);
   return true;
 }

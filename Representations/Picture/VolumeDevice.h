@@ -31,10 +31,11 @@ struct VolumeRequest
   SceneReference reference;
   bool showsEvidence = false;
   Resection resection;
-  bool waits = false;          ///< A picture is saved: with all bricks that its rays ask for.
-  double memoryLimitMiB = 0.0; ///< 0: all that the driver gives.
-  std::vector<double> part;    ///< Between these bounds (mm) of the deformed frame; empty: all.
-  glm::dvec3 wholeLow{ 0.0 };  ///< With a part: the whole volume's box, in the grid of its voxels.
+  bool waits = false;             ///< A picture is saved: with all bricks that its rays ask for.
+  double memoryLimitMiB = 0.0;    ///< 0: all that the driver gives.
+  std::vector<double> part;       ///< Between these bounds (mm) of the deformed frame; empty: all.
+  std::vector<double> partTissue; ///< The same, as far as the volume's tissue goes.
+  glm::dvec3 wholeLow{ 0.0 }; ///< With a part: the whole volume's box, in the grid of its voxels.
   glm::dvec3 wholeHigh{ 0.0 };
   PictureWish wish; ///< Position and size are filled in by draw.
 };

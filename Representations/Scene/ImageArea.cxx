@@ -33,7 +33,8 @@ PixelBox enclosing(const PixelBox& a, const PixelBox& b)
 
 PixelBox overlap(const PixelBox& a, const PixelBox& b)
 {
-  return { glm::max(a.low, b.low), glm::min(a.high, b.high) };
+  const glm::ivec2 low = glm::max(a.low, b.low);
+  return { low, glm::max(glm::min(a.high, b.high), low) }; // OpenGL takes no negative sides
 }
 
 double pixelsIn(const PixelPart& part)

@@ -146,9 +146,10 @@ struct SceneSkipping
 /// Clipping planes and cropping. Filled by cutsOf or cutsOfReference (VolumeChoices.h).
 struct SceneCuts
 {
-  std::vector<float> clipPlanes; ///< 4 numbers each, texture coordinates; kept: dot + w >= 0.
-  std::vector<float> partPlanes; ///< As clipPlanes: the part that this rank draws; may be empty.
-  glm::dvec3 spaceLow{ 0.0 };    ///< What cropping leaves of the field's space.
+  std::vector<float> clipPlanes;  ///< 4 numbers each, texture coordinates; kept: dot + w >= 0.
+  std::vector<float> partPlanes;  ///< As clipPlanes: the part that this rank draws; may be empty.
+  std::vector<double> partTissue; ///< The box (mm) of all that it draws of the volume, likewise.
+  glm::dvec3 spaceLow{ 0.0 };     ///< What cropping leaves of the field's space.
   glm::dvec3 spaceHigh{ 1.0 };
   glm::dvec3 cropLow{ -1e6 }; ///< The only region that cropping leaves, texture coordinates.
   glm::dvec3 cropHigh{ 1e6 };

@@ -106,6 +106,18 @@ double areaOf(const std::vector<glm::dvec2>& strip)
 }
 }
 
+TEST(PixelBox, SharesNoPixelsWithOneBesideIt)
+{
+  const PixelBox box{ { 10, 10 }, { 50, 50 } };
+  for (const PixelBox& beside :
+    { PixelBox{ { 60, 20 }, { 90, 30 } }, PixelBox{ { 0, 0 }, { 9, 9 } } })
+  {
+    EXPECT_TRUE(overlap(box, beside).empty());
+    EXPECT_TRUE(glm::all(glm::greaterThanEqual(overlap(beside, box).size(), glm::ivec2(0))))
+      << "OpenGL takes no negative sides";
+  }
+}
+
 TEST(PixelPart, IsDrawnAsOneStrip)
 {
   const PixelPart box = partOf({ { 10, 20 }, { 110, 80 } });

@@ -113,10 +113,11 @@ def test_four_ranks_of_pvbatch():
         assert 0.2 < share < most, (name, share)
 
 
-def test_eight_ranks_draw():
+def test_eight_ranks_of_pvbatch():
     """The boxes of eight ranks are cut along all three axes."""
-    found, _ = batch(8, None)
+    found, _ = batch(8, folder_of(8))
     assert_same(found, {name: numbers for name, numbers in EXPECTED.items() if name in found})
+    assert_same_files(folder_of(8))
     assert found["bytes unbent"][0] < 0.4 * EXPECTED["bytes unbent"][0], found["bytes unbent"]
 
 
