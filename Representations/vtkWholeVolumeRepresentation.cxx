@@ -94,6 +94,13 @@ bool mayHaveRanks()
   return !session || (session->GetProcessRoles() & Both) != Both ||
     (ranks && ranks->GetNumberOfProcesses() > 1);
 }
+
+// Whether one process serves a client, in both of them.
+bool isOneServer()
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  return mayHaveRanks() && (!ranks || ranks->GetNumberOfProcesses() == 1);
+}
 }
 
 struct vtkWholeVolumeRepresentation::Taken
@@ -151,7 +158,7 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
         ShareOut(group, input, output);
       }
     }
-    else if (request == vtkPVView::REQUEST_RENDER() && this->GetNeedsUpdate())
+    else if (request == vtkPVView::REQUEST_RENDER() && this->GetNeedsUpdate() && isOneServer())
     {
       this->Overtake(input);
     }

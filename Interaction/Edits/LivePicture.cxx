@@ -54,7 +54,8 @@ void addDisplays(pqPipelineSource* source, pqView* view, QSet<pqPipelineSource*>
   }
 }
 
-// Whether one process of a server draws a moving picture, and no display but bent volumes changes.
+// Whether one process of a server has the data and draws a moving picture of it, and no display but
+// bent volumes changes.
 bool isDrawnByServer(pqView* view, const std::vector<pqDataRepresentation*>& displays)
 {
   vtkSMProxy* proxy = view->getProxy();
@@ -63,6 +64,8 @@ bool isDrawnByServer(pqView* view, const std::vector<pqDataRepresentation*>& dis
   constexpr vtkTypeUInt32 Servers = vtkPVSession::DATA_SERVER | vtkPVSession::RENDER_SERVER;
   return drawn && !displays.empty() && (drawn->GetInteractiveRenderProcesses() & Servers) != 0 &&
     session->IsA("vtkSMSessionClient") &&
+    session->GetController(vtkPVSession::DATA_SERVER_ROOT) ==
+    session->GetController(vtkPVSession::RENDER_SERVER_ROOT) &&
     session->GetNumberOfProcesses(vtkPVSession::DATA_SERVER) == 1 &&
     std::all_of(displays.begin(), displays.end(),
       [](pqDataRepresentation* display) { return showsVolume(display) || showsSlices(display); });

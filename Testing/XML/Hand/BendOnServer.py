@@ -75,6 +75,8 @@ def drag_with_each_tool(far):
     for kind in ("Deformed Volume", "Deformed Slices"):
         display.SetRepresentationType(kind)
         display.ShowSagittal = display.ShowCoronal = 0
+        # Above it, moving pictures have stand-ins, as of every larger volume.
+        view.LODThreshold = 0.0 if kind == "Deformed Slices" else 20.0
         simple.Render(view)
         hand.wait(100)
         for tool in (hand.SOFT, hand.STAMP, hand.MOVE):
