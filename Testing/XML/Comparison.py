@@ -13,9 +13,8 @@ import xml.etree.ElementTree
 import brainshift
 import numpy
 import test_hand as hand
+from brainshift_testing import on_screen
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 MOVED = (-4.0, 0.0, 0.0)
 PLACE = (0.5, 0.5, 0.5)
@@ -63,18 +62,6 @@ def place_slices():
         simple.Render(view)
 
 
-def on_screen(view):
-    """What was drawn last, every fourth pixel of it."""
-    pixels = vtkWindowToImageFilter()
-    pixels.SetInput(view.GetRenderWindow())
-    pixels.ReadFrontBufferOff()
-    pixels.ShouldRerenderOff()
-    pixels.Update()
-    image = pixels.GetOutput()
-    width, height, _ = image.GetDimensions()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)[::4, ::4]
-
-
 def look(name):
     """Writes down what the filter says and what the views show now, drawing nothing."""
     compare = simple.FindSource("compared")
@@ -85,7 +72,7 @@ def look(name):
         display = simple.GetDisplayProperties(compare, view)
         shown["ways"].append(str(display.SliceComparison.GetData()))
         shown["colors"].append(str(display.ComparisonColors.GetData()))
-        shown["pictures"].append(on_screen(view).tolist())
+        shown["pictures"].append(on_screen(view)[::4, ::4].tolist())
     seen = {}
     if os.path.exists(seen_file()):
         with open(seen_file(), encoding="utf-8") as file:

@@ -11,10 +11,8 @@ import far_network
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import data, server, server_finds_plugin
+from brainshift_testing import data, on_screen, server, server_finds_plugin
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 from window_testing import strokes
 
 MIDDLE = (20.0, 20.0, 20.0)
@@ -60,16 +58,6 @@ def show():
     return bent, view, display
 
 
-def in_window(view):
-    """What the window shows of a view; it draws nothing."""
-    grab = vtkWindowToImageFilter()
-    grab.SetInput(view.GetRenderWindow())
-    grab.ShouldRerenderOff()
-    grab.ReadFrontBufferOff()
-    grab.Update()
-    return vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).astype(float)
-
-
 def drag_with_each_tool(far):
     bent, view, display = show()
     for kind in ("Deformed Volume", "Deformed Slices"):
@@ -95,7 +83,7 @@ def drag(far, bent, view, display, tool, kind):
     drawn = brainshift.counters(display)["latticeUploads"]
     hand.hover(start)
     hand.press(start)
-    before = in_window(view)
+    before = on_screen(view)
     hand.drag_to([start[0] + 2, start[1] + 2])
     hand.wait(50)
     trips = []
@@ -110,10 +98,10 @@ def drag(far, bent, view, display, tool, kind):
     assert len(strokes()) == 1 and strokes()[0][0] == number, (tool, kind, strokes())
     window.until(lambda: brainshift.counters(display)["latticeUploads"] > drawn,
                  f"the server draws {kind} while tool {tool} drags")
-    live = in_window(view)
+    live = on_screen(view)
     hand.release([start[0] + 15, start[1] + 15])
     hand.wait(300)
-    still = in_window(view)
+    still = on_screen(view)
     assert abs(live - still).mean() < 0.9 * abs(before - still).mean(), "tissue follows the hand"
     if kind == "Deformed Slices":
         assert abs(strokes()[0][6]) < 1e-5, strokes()

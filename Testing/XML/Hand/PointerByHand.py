@@ -16,7 +16,7 @@ import brainshift
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import ball, scratch, show_volume, volume
+from brainshift_testing import ball, on_screen, scratch, show_volume, volume
 from paraview import simple
 
 MIDDLE, RADIUS = numpy.array((16.0, 16.0, 16.0)), 9.0
@@ -112,17 +112,7 @@ def connects():
 
 def yellow():
     """Where the ball at the tip is seen: how many pixels, and their mean, from the lower left."""
-    from paraview.vtk.util.numpy_support import vtk_to_numpy
-    from paraview.vtk.vtkRenderingCore import vtkWindowToImageFilter
-
-    grab = vtkWindowToImageFilter()
-    grab.SetInput(simple.GetActiveView().GetRenderWindow())
-    grab.ReadFrontBufferOff()
-    grab.ShouldRerenderOff()
-    grab.Update()
-    image = grab.GetOutput()
-    width, height, _ = image.GetDimensions()
-    colors = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1).astype(int)
+    colors = on_screen(simple.GetActiveView())
     ys, xs = numpy.nonzero((colors[..., 0] > 120) & (colors[..., 0] > colors[..., 2] + 80))
     return len(xs), (xs.mean(), ys.mean()) if len(xs) else None
 
