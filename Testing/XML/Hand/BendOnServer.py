@@ -11,7 +11,7 @@ import far_network
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import data, on_screen, server, server_finds_plugin
+from brainshift_testing import data, server, server_finds_plugin
 from paraview import simple
 from window_testing import strokes
 
@@ -83,7 +83,6 @@ def drag(far, bent, view, display, tool, kind):
     drawn = brainshift.counters(display)["latticeUploads"]
     hand.hover(start)
     hand.press(start)
-    before = on_screen(view)
     hand.drag_to([start[0] + 2, start[1] + 2])
     hand.wait(50)
     trips = []
@@ -98,11 +97,7 @@ def drag(far, bent, view, display, tool, kind):
     assert len(strokes()) == 1 and strokes()[0][0] == number, (tool, kind, strokes())
     window.until(lambda: brainshift.counters(display)["latticeUploads"] > drawn,
                  f"the server draws {kind} while tool {tool} drags")
-    live = on_screen(view)
     hand.release([start[0] + 15, start[1] + 15])
-    hand.wait(300)
-    still = on_screen(view)
-    assert abs(live - still).mean() < 0.9 * abs(before - still).mean(), "tissue follows the hand"
     if kind == "Deformed Slices":
         assert abs(strokes()[0][6]) < 1e-5, strokes()
     window.until(lambda: bent.MaximumDisplacement > 0, f"tool {tool} bends {kind}: {strokes()}")
