@@ -2,6 +2,7 @@
 #include "Representations/Picture/VolumeDevice.h"
 
 #include "Representations/Picture/PictureCapture.h"
+#include "Representations/Picture/SeenPixels.h"
 
 #include "vtkImageData.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -225,6 +226,36 @@ DrawnValues valuesToCrop(const VolumeRequest& request)
 
 namespace
 {
+// A field whose space is what a rank's rays see of it: its part, and around it the samples that are
+// before its border because parts end at even ones, also those of the longest step while moving.
+SceneField seenOf(SceneField field, const VolumeRequest& request)
+{
+  const std::vector<double>& part = request.part;
+  const DrawnValues& values = request.tissue.values;
+  if (part.empty())
+  {
+    return field;
+  }
+  TextureBox box{ glm::dvec3(1e300), glm::dvec3(-1e300) };
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 world(
+      part[corner & 1], part[2 + (corner >> 1 & 1)], part[4 + (corner >> 2 & 1)]);
+    const glm::dvec3 texture = textureFromWorld(values, world);
+    box.low = glm::min(box.low, texture);
+    box.high = glm::max(box.high, texture);
+  }
+  const double beforeMm = 2.0 * request.tissue.stepMm * (1 << MostStepDoublings);
+  const glm::dvec3 margin = beforeMm / values.grid.spacing * values.layout.textureFromGrid +
+    double(BrickSide) / glm::dvec3(values.layout.dimensions);
+  field.spaceLow = glm::min(glm::max(field.spaceLow, box.low - margin), field.spaceHigh);
+  field.spaceHigh = glm::max(glm::min(field.spaceHigh, box.high + margin), field.spaceLow);
+  return field;
+}
+}
+
+namespace
+{
 // Where bricks that came can be seen. `farthest`: lattice cells that tissue may have moved.
 FieldTexture::Bent whereBricksCame(
   const SceneBricks& bricks, const SceneField& field, const glm::vec3& farthest)
@@ -289,7 +320,8 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
   this->Picture.bend(change.bent); // the next picture needs it if this one fails
   this->Picture.bend(whereBricksCame(scene.bricks, scene.field,
     deformation.deformed ? this->Deformation.field().farthestMove() : glm::vec3(0.0f)));
-  if (!this->Tissue.updateBricks(gpu, tissue, scene.field, change.computed, scene.skipping))
+  const SceneField seen = seenOf(scene.field, request);
+  if (!this->Tissue.updateBricks(gpu, tissue, seen, change.computed, scene.skipping))
   {
     return false;
   }

@@ -44,20 +44,32 @@ float evenBelow(float number)
 uniform int partCount;
 uniform vec4 partPlanes[6];
 
-// Of samples numbered from t = `first`, those in the part: first, and one past the last.
+// Of samples numbered from t = `first`, those in the part: first, and one past the last. The planes
+// 2 n and 2 n + 1 are the lower and the upper side of the part along an axis.
 vec2 samplesInPart(Ray ray, float first, vec2 samples)
 {
-  for (int i = 0; i < partCount; ++i)
+  if (partCount == 0)
   {
-    float height = dot(partPlanes[i].xyz, ray.start) + partPlanes[i].w;
-    float slope = dot(partPlanes[i].xyz, ray.direction);
-    float number = evenBelow(ceil((-height / slope - first) / stepMm));
-    samples.x = slope > 0.0 ? max(samples.x, number) : samples.x;
-    samples.y = slope < 0.0 ? min(samples.y, number) : samples.y;
-    bool isOutside = height < 0.0 || (height == 0.0 && i % 2 == 1); // a border belongs to one part
-    samples.y = slope == 0.0 && isOutside ? 0.0 : samples.y;
+    return samples;
   }
-  return samples;
+  mat3 axes = mat3(partPlanes[0].xyz, partPlanes[2].xyz, partPlanes[4].xyz);
+  vec3 at = ray.start * axes;
+  vec3 slope = ray.direction * axes;
+  vec3 low = at + vec3(partPlanes[0].w, partPlanes[2].w, partPlanes[4].w); // heights above a side
+  vec3 high = vec3(partPlanes[1].w, partPlanes[3].w, partPlanes[5].w) - at;
+  vec3 lowest = 2.0 * floor(0.5 * ceil((-low / slope - first) / stepMm)); // as evenBelow
+  vec3 highest = 2.0 * floor(0.5 * ceil((high / slope - first) / stepMm));
+  bvec3 rises = greaterThan(slope, vec3(0.0));
+  vec3 enter = mix(highest, lowest, rises);
+  vec3 leave = mix(lowest, highest, rises);
+  // A ray along a side is in the part or not. A border belongs to one part.
+  bvec3 along = equal(slope, vec3(0.0));
+  bvec3 outside = bvec3(
+    low.x < 0.0 || high.x <= 0.0, low.y < 0.0 || high.y <= 0.0, low.z < 0.0 || high.z <= 0.0);
+  enter = mix(enter, vec3(samples.x), along);
+  leave = mix(leave, mix(vec3(samples.y), vec3(0.0), outside), along);
+  return vec2(max(samples.x, max(enter.x, max(enter.y, enter.z))),
+    min(samples.y, min(leave.x, min(leave.y, leave.z))));
 }
 
 // The picture of a part. IceT adds bytes without a limit: where light is brighter than its opacity,
