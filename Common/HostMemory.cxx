@@ -2,12 +2,16 @@
 #include "Common/HostMemory.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <functional>
 #include <limits>
 #include <sstream>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #ifdef __linux__
 #include <sys/resource.h>
 #include <unistd.h>
@@ -130,5 +134,42 @@ std::string sharedMemoryProblem(
 void requireHostMemory(const std::string& what, double bytes)
 {
   throwIfAny(hostMemoryProblem(what, bytes));
+}
+
+namespace
+{
+std::atomic<int> keeping = 0; // so many times
+
+void keep([[maybe_unused]] bool kept)
+{
+#ifdef __GLIBC__
+  // What glibc itself comes to after large pieces were given back; from a call on it stays so.
+  constexpr int usualPiece = 32 << 20;
+  constexpr int usualMappings = 65536;
+  mallopt(M_MMAP_MAX, kept ? 0 : usualMappings);
+  mallopt(M_MMAP_THRESHOLD, usualPiece);
+  mallopt(M_TRIM_THRESHOLD, kept ? std::numeric_limits<int>::max() : 2 * usualPiece);
+  if (!kept)
+  {
+    malloc_trim(0);
+  }
+#endif
+}
+}
+
+KeptMemory::KeptMemory()
+{
+  if (keeping++ == 0)
+  {
+    keep(true);
+  }
+}
+
+KeptMemory::~KeptMemory()
+{
+  if (--keeping == 0)
+  {
+    keep(false);
+  }
 }
 }

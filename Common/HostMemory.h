@@ -60,6 +60,20 @@ VTKBRAINSHIFTCOMMON_EXPORT void requireHostMemory(const std::string& what, doubl
 
 /** Three numbers of a size, such as "91 x 91 x 91". */
 VTKBRAINSHIFTCOMMON_EXPORT std::string sizeText(const glm::dvec3& sides);
+
+/**
+ * While one exists, memory that this process gives back stays with it for what it asks next: a
+ * system hands out memory page by page, filled with zeros, which takes as long as to compute with
+ * it. Afterwards the system gets it. Only glibc is told so.
+ */
+class VTKBRAINSHIFTCOMMON_EXPORT KeptMemory
+{
+public:
+  KeptMemory();
+  ~KeptMemory();
+  KeptMemory(const KeptMemory&) = delete;
+  KeptMemory& operator=(const KeptMemory&) = delete;
+};
 }
 
 #endif

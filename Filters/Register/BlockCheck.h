@@ -97,8 +97,8 @@ private:
   Volume Reference;
   Volume RestWeights;
   Volume ReferenceWeights;
-  std::vector<float> RestNumbers;
-  std::vector<float> ReferenceNumbers;
+  UnsetVector<float> RestNumbers;
+  UnsetVector<float> ReferenceNumbers;
   std::vector<glm::ivec3> Places; // of each point's tissue in the result, points of the grid
   std::vector<Block> Blocks;      // x fastest
   float LeastPart = 0.0f;         // of a block that is searched

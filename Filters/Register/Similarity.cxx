@@ -98,6 +98,7 @@ namespace
 template <typename Numbers>
 void readNumbers(const float* values, const Neighbours& at, Numbers numbers, float* to)
 {
+  std::fill_n(to, static_cast<int>(numbers), 0.0f);
   for (int corner = 0; corner < 8; ++corner)
   {
     const glm::bvec3 upper(corner & 1, corner & 2, corner & 4);
@@ -115,12 +116,11 @@ void readNumbers(const float* values, const Neighbours& at, Numbers numbers, flo
 }
 }
 
-std::vector<float> LevelSamples::read(const std::vector<float>& values, int numbers) const
+void LevelSamples::readInto(const float* values, int numbers, float* result) const
 {
   constexpr std::integral_constant<int, 12> OfSelfSimilarity;
   constexpr std::integral_constant<int, 24> OfItWithEdges;
   const Grid& grid = this->rows.samples();
-  std::vector<float> result(values.size());
   const glm::vec3 last(grid.dimensions - 1);
   parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
     for (int k = static_cast<int>(begin); k < end; ++k)
@@ -138,14 +138,13 @@ std::vector<float> LevelSamples::read(const std::vector<float>& values, int numb
           const Neighbours at = neighboursOf(
             grid.dimensions, glm::clamp(this->rows.position(i, j, k), glm::vec3(0.0f), last));
           float* to = &result[number * numbers];
-          numbers == OfItWithEdges        ? readNumbers(values.data(), at, OfItWithEdges, to)
-            : numbers == OfSelfSimilarity ? readNumbers(values.data(), at, OfSelfSimilarity, to)
-                                          : readNumbers(values.data(), at, numbers, to);
+          numbers == OfItWithEdges        ? readNumbers(values, at, OfItWithEdges, to)
+            : numbers == OfSelfSimilarity ? readNumbers(values, at, OfSelfSimilarity, to)
+                                          : readNumbers(values, at, numbers, to);
         }
       }
     }
   });
-  return result;
 }
 
 CostAndForces averaged(

@@ -7,6 +7,7 @@
 #ifndef BrainShift_Similarity_h
 #define BrainShift_Similarity_h
 
+#include "Common/UnsetVector.h"
 #include "Filters/Register/LatticeRows.h"
 #include "Filters/Register/Volume.h"
 
@@ -141,12 +142,20 @@ struct LevelSamples
   }
 
   /**
-   * The numbers of a volume at the samples that count, 0 at the others; `numbers` of them for each
-   * point, interleaved.
+   * The numbers of a volume at the samples that count; `numbers` of them for each point,
+   * interleaved. The others are new elements of the vector.
    */
-  std::vector<float> read(const std::vector<float>& values, int numbers) const;
+  template <typename Vector>
+  Vector read(const Vector& values, int numbers) const
+  {
+    Vector result(values.size());
+    this->readInto(values.data(), numbers, result.data());
+    return result;
+  }
 
 private:
+  void readInto(const float* values, int numbers, float* result) const;
+
   std::vector<float> Unrestricted; // weights; empty: restrictTo was not called
 };
 
@@ -208,7 +217,7 @@ struct Descriptor
   Support support; ///< neighbourhood that the numbers depend on
   int numbers = 0; ///< of each point
   /** The numbers (0 to 1) of each point, interleaved. Null: there is no descriptor. */
-  std::vector<float> (*make)(const Volume& volume) = nullptr;
+  UnsetVector<float> (*make)(const Volume& volume) = nullptr;
 };
 
 /** One level of a refinement: its metric and its spacing. */

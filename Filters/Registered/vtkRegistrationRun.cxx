@@ -27,6 +27,7 @@ using namespace brainshift;
 
 struct vtkRegistrationRun::Running
 {
+  std::unique_ptr<KeptMemory> Kept; // until the checks are finished
   std::unique_ptr<Alignment> Rigid;
   std::unique_ptr<Refinement> Elastic;
   std::vector<glm::vec3> Start;      // displacements of the control points, mm, world axes
@@ -276,6 +277,7 @@ void vtkRegistrationRun::Begin(bool bends)
       std::max(Verification::bytes(grids.rest, grids.reference, {}, similarity.plan),
         bends ? Refinement::bytes(grids.rest, grids.reference, {}, settings)
               : Alignment::bytes(grids.rest, grids.reference)));
+  this->Internal->Kept = std::make_unique<KeptMemory>();
   RegisteredSource source = readSource(image);
   if (bends)
   {
@@ -401,6 +403,10 @@ void vtkRegistrationRun::Report()
   this->Done = isDone ? 1.0 : this->Internal->Done();
   this->Finished = isDone ? 1 : 0;
   this->Checking = this->Internal->Checks && !isDone ? 1 : 0;
+  if (isDone)
+  {
+    this->Internal->Kept = nullptr;
+  }
   if (isDone && !isRefused)
   {
     this->ReportChecks();

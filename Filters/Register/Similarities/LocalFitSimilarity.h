@@ -13,6 +13,8 @@
 
 #include "Filters/Register/Similarity.h"
 
+#include <algorithm>
+
 namespace brainshift
 {
 // Sums over windows around every second point of a grid, and the results of windows for their
@@ -34,12 +36,17 @@ struct Block
 {
   glm::ivec3 dimensions{ 0 };
   int numbers = 0;
-  std::vector<float> values;
+  UnsetVector<float> values;
 
   Block() = default;
-  Block(const glm::ivec3& sides, int each) { this->reshape(sides, each); }
+  /** All values are 0. */
+  Block(const glm::ivec3& sides, int each)
+  {
+    this->reshape(sides, each);
+    std::fill(this->values.begin(), this->values.end(), 0.0f);
+  }
 
-  /** The values are undefined unless the block had none. */
+  /** The values are undefined. */
   void reshape(const glm::ivec3& sides, int each)
   {
     this->dimensions = sides;

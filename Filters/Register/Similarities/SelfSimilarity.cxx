@@ -86,10 +86,10 @@ void normalise(float* numbers, float meanNoise)
 }
 }
 
-std::vector<float> selfSimilarity(const Volume& volume)
+UnsetVector<float> selfSimilarity(const Volume& volume)
 {
   const std::int64_t count = static_cast<std::int64_t>(volume.values.size());
-  std::vector<float> result(volume.values.size() * SelfSimilarityNumbers);
+  UnsetVector<float> result(volume.values.size() * SelfSimilarityNumbers);
   Volume sums{ volume.grid, std::vector<float>(volume.values.size()) };
   const std::int64_t slab = static_cast<std::int64_t>(volume.grid.offset(0, 0, 1));
   std::vector<double> slabSums(volume.grid.dimensions.z, 0.0);
@@ -227,14 +227,14 @@ std::vector<float> edgesOf(const LevelVolumes& level, bool isReference)
 
 // The numbers of each point of a volume; with `Images` 2, also those of its edges.
 template <int Images>
-std::vector<float> numbersOf(const LevelVolumes& level, bool isReference)
+UnsetVector<float> numbersOf(const LevelVolumes& level, bool isReference)
 {
   const Volume& volume = isReference ? level.reference : level.rest;
-  std::vector<float> numbers = selfSimilarity(volume);
+  UnsetVector<float> numbers = selfSimilarity(volume);
   if constexpr (Images == 2)
   {
-    const std::vector<float> more = selfSimilarity({ volume.grid, edgesOf(level, isReference) });
-    std::vector<float> both(2 * numbers.size());
+    const UnsetVector<float> more = selfSimilarity({ volume.grid, edgesOf(level, isReference) });
+    UnsetVector<float> both(2 * numbers.size());
     const std::size_t points = volume.values.size();
     for (std::size_t i = 0; i < points; ++i)
     {
@@ -368,8 +368,8 @@ private:
   std::unique_ptr<LevelSamples> Samples;
   std::unique_ptr<LevelSamples> Quick; // half of them; null: there are too few
   bool IsQuickest = false;
-  std::vector<float> Rest;       // at the samples; while it is prepared, at the points
-  std::vector<float> Reference;  // at the points
+  UnsetVector<float> Rest;       // at the samples that count; while it is prepared, at the points
+  UnsetVector<float> Reference;  // at the points
   std::vector<float> Importance; // of the samples; empty: 1 everywhere
 };
 

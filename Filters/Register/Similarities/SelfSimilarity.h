@@ -22,7 +22,7 @@ constexpr Support SelfSimilaritySupport{ SelfSimilarityDistance + SelfSimilarity
   SelfSimilarityRadius };
 
 /** The 12 numbers (0 to 1) of each point, interleaved. */
-BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> selfSimilarity(const Volume& volume);
+BRAINSHIFT_DEFORMATION_EXPORT UnsetVector<float> selfSimilarity(const Volume& volume);
 
 /** The 12 numbers as a descriptor. */
 Descriptor selfSimilarityDescriptor();

@@ -153,4 +153,27 @@ TEST(HostMemory, ADeformationFieldAsksForItsPoints)
   EXPECT_EQ(saidWithin2GB(field), "") << "what was refused is forgotten";
   EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 5 * 6 * 7);
 }
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(KeptMemory, StaysWithTheProcessAndGoesBackAtTheEnd)
+{
+  const auto resident = [] {
+    double all = 0.0;
+    double here = 0.0;
+    std::ifstream("/proc/self/statm") >> all >> here;
+    return here * static_cast<double>(sysconf(_SC_PAGESIZE));
+  };
+  const auto takeAndGiveBack = [] {
+    const std::vector<char> bytes(200000000, 1);
+    EXPECT_EQ(bytes.back(), 1);
+  };
+  const double before = resident();
+  {
+    const KeptMemory kept;
+    takeAndGiveBack();
+    EXPECT_GT(resident(), before + 0.15 * GB);
+  }
+  EXPECT_LT(resident(), before + 0.05 * GB);
+}
+#endif
 #endif

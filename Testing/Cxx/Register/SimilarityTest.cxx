@@ -94,7 +94,7 @@ TEST(LatticeRows, ReadWhatTheCubicIs)
 TEST(SelfSimilarity, DoesNotChangeWithContrast)
 {
   const Volume volume = filled(smallGrid(16), tissue);
-  const std::vector<float> numbers = selfSimilarity(volume);
+  const auto numbers = selfSimilarity(volume);
   for (const float factor : { -1.0f, 3.0f })
   {
     Volume other = volume;
@@ -102,7 +102,7 @@ TEST(SelfSimilarity, DoesNotChangeWithContrast)
     {
       value = 500.0f + factor * value;
     }
-    const std::vector<float> others = selfSimilarity(other);
+    const auto others = selfSimilarity(other);
     float apart = 0.0f;
     for (std::size_t i = 0; i < numbers.size(); ++i)
     {
