@@ -27,7 +27,7 @@ using namespace brainshift;
 
 struct vtkRegistrationRun::Running
 {
-  std::unique_ptr<KeptMemory> Kept; // until the checks are finished
+  std::unique_ptr<KeptMemory> Kept; // until the checks are finished, or nothing goes on
   std::unique_ptr<Alignment> Rigid;
   std::unique_ptr<Refinement> Elastic;
   std::vector<glm::vec3> Start;      // displacements of the control points, mm, world axes
@@ -308,6 +308,10 @@ void vtkRegistrationRun::BeginGuarded(bool bends)
     this->Problem = problemOf([this, bends] { this->Begin(bends); });
     this->Report();
   });
+  if (!this->Problem.empty())
+  {
+    this->Internal->Kept = nullptr;
+  }
 }
 
 void vtkRegistrationRun::BeginAlignment()
@@ -337,6 +341,7 @@ void vtkRegistrationRun::Step()
 void vtkRegistrationRun::Stop()
 {
   guarded(this, [this] {
+    this->Internal->Kept = nullptr;
     if (this->Internal->Best)
     {
       this->Internal->KeepBest();
