@@ -62,9 +62,9 @@ VTKBRAINSHIFTCOMMON_EXPORT void requireHostMemory(const std::string& what, doubl
 VTKBRAINSHIFTCOMMON_EXPORT std::string sizeText(const glm::dvec3& sides);
 
 /**
- * While one exists, memory that this process gives back stays with it for what it asks next: a
- * system hands out memory page by page, filled with zeros, which takes as long as to compute with
- * it. Afterwards the system gets it. Only glibc is told so.
+ * While one exists, memory that this process gives back stays with it for what it asks next, and
+ * comes in large pages: a system hands out memory page by page, filled with zeros, which takes as
+ * long as to compute with it. Afterwards the system gets it. Only glibc is told so.
  */
 class VTKBRAINSHIFTCOMMON_EXPORT KeptMemory
 {

@@ -16,6 +16,7 @@ constexpr double FineMm = 4.0;
 constexpr std::size_t CoarseSamples = 4000;
 constexpr std::size_t FineSamples = 20000;
 constexpr double Tolerance = 0.1;    // of a search, as a fraction of the spacing
+constexpr int AsItIs = 2;            // candidates: before the registration, and after it
 constexpr int Finals = 3;            // beside the reference as it is
 constexpr double Alike = 0.9;        // of the information on the coarse level
 constexpr std::size_t Searched = 12; // of the 48 orientations
@@ -96,10 +97,18 @@ const std::vector<glm::dmat3>& allOrientations()
   return all;
 }
 
-OrientationSearch::OrientationSearch(const RegisteredPair& pair, const Lattice& bent)
+OrientationSearch::OrientationSearch(
+  const RegisteredPair& pair, const Lattice& start, const Lattice& result)
   : Whole(pair)
-  , Bent(bent)
+  , Start(start)
+  , Result(result)
 {
+}
+
+OrientationSearch::Level OrientationSearch::levelOf(const AlignmentSettings& settings) const
+{
+  return { std::make_unique<Alignment>(this->Pair, &this->Start, settings),
+    std::make_unique<Alignment>(this->Pair, &this->Result, settings) };
 }
 
 void OrientationSearch::read()
@@ -116,23 +125,21 @@ void OrientationSearch::read()
   this->Pair.cavity = coarseMask(this->Whole.cavity);
   this->Pair.referenceUnknown = coarseMask(this->Whole.referenceUnknown);
   this->ReferenceMiddle = tissueMiddle(this->Pair.reference);
-  this->Coarse = std::make_unique<Alignment>(
-    this->Pair, &this->Bent, settingsOf({ CoarseMm }, CoarseSamples, 2));
-  this->Fine =
-    std::make_unique<Alignment>(this->Pair, &this->Bent, settingsOf({ FineMm }, FineSamples, 3));
+  this->Coarse = this->levelOf(settingsOf({ CoarseMm }, CoarseSamples, 2));
+  this->Fine = this->levelOf(settingsOf({ FineMm }, FineSamples, 3));
 }
 
-Alignment OrientationSearch::placed(const Orientation& one, const Alignment& start)
+Alignment OrientationSearch::placed(const Orientation& one, const Level& level)
 {
-  Alignment search = start;
+  Alignment search = *level[one.isBent ? 1 : 0];
   search.moveReference(one.placement, one.shift);
   return search;
 }
 
 // The search begins where the last one ended.
-void OrientationSearch::search(Orientation& one, const Alignment& start)
+void OrientationSearch::search(Orientation& one, const Level& level)
 {
-  Alignment search = placed(one, start);
+  Alignment search = placed(one, level);
   while (!search.progress().isFinished)
   {
     search.step();
@@ -154,17 +161,20 @@ void OrientationSearch::glance()
     one.matrix = matrix;
     one.placement = axes * matrix * glm::transpose(axes);
     one.shift = this->RestMiddle - one.placement * this->ReferenceMiddle;
-    one.information = placed(one, *this->Coarse).information();
+    one.information = placed(one, this->Coarse).information();
     others.push_back(one);
   }
   std::sort(others.begin(), others.end(), hasMore);
-  this->Candidates.emplace_back();
+  this->Candidates.resize(AsItIs);
+  this->Candidates.back().isBent = true;
   this->Candidates.insert(this->Candidates.end(), others.begin(), others.begin() + Searched);
 }
 
 // The finer level changes the order of those that are alike, and of no others.
 void OrientationSearch::choose()
 {
+  this->Candidates.erase(
+    this->Candidates.begin() + (hasMore(this->Candidates[0], this->Candidates[1]) ? 1 : 0));
   std::sort(this->Candidates.begin() + 1, this->Candidates.end(), hasMore);
   const double least = Alike * this->Candidates.front().information;
   const auto isOpen = [&](const Orientation& one) { return one.information >= least; };
@@ -176,7 +186,7 @@ void OrientationSearch::choose()
 
 bool OrientationSearch::step()
 {
-  if (!this->Fine)
+  if (!this->Fine.front())
   {
     this->read();
     return true;
@@ -186,28 +196,29 @@ bool OrientationSearch::step()
     this->glance();
     return true;
   }
-  if (this->Tried <= Searched)
+  constexpr std::size_t all = AsItIs + Searched;
+  if (this->Tried < all)
   {
-    this->search(this->Candidates[this->Tried], *this->Coarse);
-    if (this->Tried++ == Searched)
+    this->search(this->Candidates[this->Tried], this->Coarse);
+    if (++this->Tried == all)
     {
       this->choose();
     }
   }
   else if (this->Refined < this->Candidates.size())
   {
-    this->search(this->Candidates[this->Refined++], *this->Fine);
+    this->search(this->Candidates[this->Refined++], this->Fine);
     if (this->Refined == this->Candidates.size())
     {
       std::sort(this->Candidates.begin() + 1, this->Candidates.end(), hasMore);
     }
   }
-  return this->Tried <= Searched || this->Refined < this->Candidates.size();
+  return this->Tried < all || this->Refined < this->Candidates.size();
 }
 
 double OrientationSearch::done() const
 {
-  const double tried = static_cast<double>(this->Tried) / (Searched + 1);
+  const double tried = static_cast<double>(this->Tried) / (AsItIs + Searched);
   const double refined = static_cast<double>(this->Refined) / (1 + Finals);
   return 0.5 * (tried + std::min(1.0, refined));
 }

@@ -12,6 +12,7 @@
 
 #include "Filters/Register/Alignment.h"
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -24,19 +25,25 @@ struct Orientation
   glm::dmat3 placement{ 1.0 }; ///< of the reference: `placement` x + `shift` (mm, world)
   glm::dvec3 shift{ 0.0 };
   double information = 0.0; ///< nats, on the finer level, or on the coarse one while it is tried
+  bool isBent = false;      ///< compared with the volume as the result bends it
 };
 
 /** All 48 products of right angles and mirrors. The first one changes nothing. */
 BRAINSHIFT_DEFORMATION_EXPORT const std::vector<glm::dmat3>& allOrientations();
 
+/**
+ * Compares all orientations with the volume as it was before the registration: a wrong result has
+ * bent it towards the reference as it is. That one is compared with the result, too.
+ */
 class BRAINSHIFT_DEFORMATION_EXPORT OrientationSearch
 {
 public:
   /**
-   * @param pair   both in their present positions; lives longer than the search
-   * @param bent   the deformation of the volume; lives longer than the search
+   * @param pair     both in their present positions; lives longer than the search
+   * @param start    the deformation before the registration; lives longer than the search
+   * @param result   the deformation after it; lives longer than the search
    */
-  OrientationSearch(const RegisteredPair& pair, const Lattice& bent);
+  OrientationSearch(const RegisteredPair& pair, const Lattice& start, const Lattice& result);
 
   /** Reads one volume or searches from one orientation. False: it is finished. */
   bool step();
@@ -48,19 +55,23 @@ public:
   const Orientation& bestOther() const { return this->Candidates[1]; }
 
 private:
-  static Alignment placed(const Orientation& one, const Alignment& start);
+  using Level = std::array<std::unique_ptr<Alignment>, 2>; // of the start, and of the result
+
+  Level levelOf(const AlignmentSettings& settings) const;
+  static Alignment placed(const Orientation& one, const Level& level);
   void read();
   void glance();
-  void search(Orientation& one, const Alignment& start);
+  void search(Orientation& one, const Level& level);
   void choose();
 
   const RegisteredPair& Whole;
-  const Lattice& Bent;
+  const Lattice& Start;
+  const Lattice& Result;
   RegisteredPair Pair;               // with few voxels
   glm::dvec3 RestMiddle{ 0.0 };      // of the tissue, mm, world
   glm::dvec3 ReferenceMiddle{ 0.0 }; // the same of the reference
-  std::unique_ptr<Alignment> Coarse; // as they begin, with the reference as it is
-  std::unique_ptr<Alignment> Fine;
+  Level Coarse;                      // as they begin, with the reference as it is
+  Level Fine;
   std::vector<Orientation> Candidates; // the first one is the reference as it is
   std::size_t Tried = 0;
   std::size_t Refined = 0;

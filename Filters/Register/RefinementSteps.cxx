@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <optional>
 #include <utility>
 
 namespace brainshift
@@ -30,6 +31,15 @@ glm::dvec3 placeOf(const Grid& lattice, std::size_t number)
   const glm::ivec3 index(static_cast<int>(number) % lattice.dimensions.x,
     row % lattice.dimensions.y, row / lattice.dimensions.y);
   return lattice.spacing * glm::dvec3(index);
+}
+
+Controls difference(Controls of, const Controls& from)
+{
+  for (std::size_t i = 0; i < of.size(); ++i)
+  {
+    of[i] -= from[i];
+  }
+  return of;
 }
 
 Controls controlsOf(const Lattice& lattice)
@@ -67,12 +77,7 @@ void RefinementState::stiffen(double factor)
 
 Controls RefinementState::bendOf(const Controls& at) const
 {
-  Controls bend = at;
-  for (std::size_t i = 0; i < bend.size(); ++i)
-  {
-    bend[i] -= this->unbent[i];
-  }
-  return bend;
+  return difference(at, this->unbent);
 }
 
 double RefinementState::energyOf(const Controls& at, const CostAndForces& compared) const
@@ -181,6 +186,9 @@ constexpr double Halving = 0.5;
 constexpr int MostStiffenings = 3;
 constexpr double Stiffening = 1.5;
 
+// A factor on the Gauss-Newton step, and its growth after each step that lowers the cost.
+constexpr double LongestRigidStep = 64.0;
+constexpr double RigidGrowth = 2.0;
 constexpr double RigidShortening = 0.25;
 constexpr double LeastRigidStepMm = 0.02;
 constexpr double LeastInSight = 0.75; // of the samples that were compared at the start
@@ -294,12 +302,21 @@ RigidStep rigidStep(
   return result;
 }
 
-void BendStep::find(BendTrial& trial, const RefinementState& state) const
+void BendStep::find(BendTrial& trial, const RefinementState& state)
 {
-  trial.step = newtonStep(state.stiffness, state.known.forces, state.bendOf(state.controls));
+  Controls pull = pullOf(state.stiffness, state.known.forces, state.bendOf(state.controls));
+  std::optional<StepTaken> last;
+  if (!this->Before.empty())
+  {
+    last =
+      StepTaken{ difference(state.controls, this->Before), difference(this->PullBefore, pull) };
+  }
+  this->Before = state.controls;
+  this->PullBefore = pull;
+  trial.step =
+    newtonStep(state.stiffness, state.known.forces, std::move(pull), last ? &*last : nullptr);
   trial.lengthMm = longest(trial.step);
-  trial.fraction =
-    std::min(this->StepLength, trial.lengthMm > 0.0 ? this->LongestMm / trial.lengthMm : 1.0);
+  trial.fraction = trial.lengthMm > this->LongestMm ? this->LongestMm / trial.lengthMm : 1.0;
 }
 
 StepOutcome BendStep::attempt(RefinementState& state, PyramidLevel& level)
@@ -328,6 +345,7 @@ StepOutcome BendStep::attempt(BendTrial& trial, RefinementState& state, PyramidL
   if (candidate.fraction < 1.0 && trial.stiffenings++ < MostStiffenings)
   {
     state.stiffen(Stiffening);
+    this->Before.clear(); // another energy
     this->find(trial, state);
     return StepOutcome::Open;
   }
@@ -342,8 +360,6 @@ StepOutcome BendStep::attempt(BendTrial& trial, RefinementState& state, PyramidL
   const double gain = state.energy - energy;
   state.progress.movedMm = trial.fraction * candidate.fraction * trial.lengthMm;
   state.take(candidate.lattice, std::move(compared), energy);
-  this->StepLength =
-    std::min(this->Growth.longest, this->Growth.growth * std::max(1.0, trial.fraction));
   return gain > this->Converged * energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
 
@@ -371,7 +387,7 @@ StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
   }
   state.progress.movedMm = fraction * candidate.fraction * step.lengthMm;
   state.take(candidate.lattice, std::move(compared), state.energy - gain);
-  this->StepLength = std::min(this->Growth.longest, this->Growth.growth * fraction);
+  this->StepLength = std::min(LongestRigidStep, RigidGrowth * fraction);
   return gain > this->Converged * state.energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
 
@@ -384,8 +400,8 @@ std::unique_ptr<RefinementStep> makeStep(
   const double pointMm = std::max(spacing.x, std::max(spacing.y, spacing.z));
   if (level.isRigid)
   {
-    return std::make_unique<RigidMove>(plan.rigidGrowth, LongestMove * pointMm, plan.converged);
+    return std::make_unique<RigidMove>(LongestMove * pointMm, plan.converged);
   }
-  return std::make_unique<BendStep>(plan.bendGrowth, LongestBend * pointMm, plan.converged);
+  return std::make_unique<BendStep>(LongestBend * pointMm, plan.converged);
 }
 }

@@ -2,7 +2,8 @@
 /// @file
 /// The two kinds of steps of a refinement: one bends the volume, one moves it rigidly.
 ///
-/// Both are Gauss-Newton steps (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3).
+/// Both solve for the forces (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3): a
+/// bend by a quasi-Newton step (Stiffness.h), a motion by a Gauss-Newton step.
 ///
 /// A rigid step has six parameters instead of three for each control point, so that the random
 /// forces of speckle average out.
@@ -153,11 +154,9 @@ public:
    * @param longestMm   of a control point in one step
    * @param converged   the level ends with a step that gains a smaller fraction of the energy
    */
-  RefinementStep(const StepGrowth& growth, double longestMm, double converged)
-    : Growth(growth)
-    , LongestMm(longestMm)
+  RefinementStep(double longestMm, double converged)
+    : LongestMm(longestMm)
     , Converged(converged)
-    , StepLength(growth.first)
   {
   }
   virtual ~RefinementStep() = default;
@@ -166,10 +165,8 @@ public:
   virtual StepOutcome attempt(RefinementState& state, PyramidLevel& level) = 0;
 
 protected:
-  StepGrowth Growth;
   double LongestMm;
   double Converged;
-  double StepLength; // factor on the next step
 };
 
 /** A step that bends, of which each call tries one length. */
@@ -194,10 +191,12 @@ public:
   StepOutcome attempt(RefinementState& state, PyramidLevel& level) override;
 
 private:
-  void find(BendTrial& trial, const RefinementState& state) const;
+  void find(BendTrial& trial, const RefinementState& state);
   StepOutcome attempt(BendTrial& trial, RefinementState& state, PyramidLevel& level);
 
   std::unique_ptr<BendTrial> Trying;
+  Controls Before; // where the last step began; empty: none was taken with this stiffness
+  Controls PullBefore;
 };
 
 /** A step that is too long moves nothing, and the next one is shorter. It has no elastic energy. */
@@ -207,6 +206,9 @@ public:
   using RefinementStep::RefinementStep;
 
   StepOutcome attempt(RefinementState& state, PyramidLevel& level) override;
+
+private:
+  double StepLength = 8.0; // factor on the next Gauss-Newton step, which speckle makes short
 };
 
 /** The first step of a level with these samples. */

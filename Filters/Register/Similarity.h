@@ -203,14 +203,6 @@ struct Metric
   std::unique_ptr<Comparison> (*make)(LevelVolumes level, const Lattice& lattice) = nullptr;
 };
 
-/** The length of a step, as a factor on the Gauss-Newton step. */
-struct StepGrowth
-{
-  double first = 1.0;
-  double longest = 2.0;
-  double growth = 1.2; ///< after each step that lowers the energy
-};
-
 /** Numbers that tell what is around a point, whatever the contrast. */
 struct Descriptor
 {
@@ -270,8 +262,6 @@ struct RefinementPlan
   double stiffness = 1.0;              ///< factor on the stiffness
   std::optional<FanLimits> fan;        ///< set: the reference is ultrasound inside a fan
   double converged = 1e-4;             ///< a level ends with a step that gains a smaller fraction
-  StepGrowth bendGrowth;
-  StepGrowth rigidGrowth{ 8.0, 64.0, 2.0 };
   CheckPlan check;
 };
 

@@ -43,17 +43,31 @@ private:
 BRAINSHIFT_DEFORMATION_EXPORT double dot(
   const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b);
 
+/** forces - R d: what moves control points with displacements d. It is 0 at the least energy. */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<glm::vec3> pullOf(const Stiffness& stiffness,
+  const std::vector<float>& forces, const std::vector<glm::vec3>& displacements);
+
+/** What the last step did. */
+struct StepTaken
+{
+  std::vector<glm::vec3> way;  ///< of the control points, mm along the grid's axes
+  std::vector<glm::vec3> drop; ///< the pull before it minus the pull after it
+};
+
 /**
- * The Gauss-Newton step (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3):
- * (H + R) step = forces - R bend, where H is the lumped Hessian of the forces (3 x 3 for each
- * control point). The solver is the preconditioned conjugate gradient method (algorithm 5.3 there);
- * the blocks of H plus the diagonal of R are its preconditioner.
+ * A quasi-Newton step: what solves (s H + R) step = pull, corrected by the last step. H is the
+ * lumped Hessian of the forces (3 x 3 for each control point), which is larger than the true one;
+ * s is how much of it the last step found. The correction is the memoryless BFGS method (Nocedal
+ * and Wright, Numerical Optimization, 2nd ed., section 7.2), and the solver the preconditioned
+ * conjugate gradient method (algorithm 5.3 there); the blocks of s H plus the diagonal of R are
+ * its preconditioner.
  *
  * @param forces   ForceNumbers for each control point (LatticeRows.h)
- * @param bend     displacements that the stiffness pulls back (mm along the grid's axes)
+ * @param pull     see pullOf
+ * @param last     null: nothing is known of it
  */
-BRAINSHIFT_DEFORMATION_EXPORT std::vector<glm::vec3> newtonStep(
-  const Stiffness& stiffness, const std::vector<float>& forces, const std::vector<glm::vec3>& bend);
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<glm::vec3> newtonStep(const Stiffness& stiffness,
+  const std::vector<float>& forces, std::vector<glm::vec3> pull, const StepTaken* last = nullptr);
 }
 
 #endif

@@ -24,8 +24,10 @@ constexpr double LeastGain = 0.1;
 // Noise has a mutual information of 0.04 to 0.06 nats in any orientation.
 constexpr double LeastInformation = 0.1;
 
-// The least fraction by which the cost is less far within the outline than beside a right result.
+// The least fraction by which the cost is less far within the outline than beside a right result. A
+// result with less than the second number fails by it alone.
 constexpr double LeastGainInside = 0.2;
+constexpr double FailedGainInside = 0.15;
 
 std::string inMm(double mm)
 {
@@ -143,11 +145,12 @@ std::string broughtReason(const Elsewhere& blocks)
     "makes it more exact.";
 }
 
-Verification::Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan,
-  std::unique_ptr<PyramidLevel> level)
+Verification::Verification(RegisteredPair pair, const Lattice& start, const Lattice& result,
+  const RefinementPlan& plan, std::unique_ptr<PyramidLevel> level)
   : Check(std::move(pair), result, plan, std::move(level))
   , Limits(plan.check)
   , IsOfHeads(!plan.fan)
+  , Start(start)
   , Result(result)
 {
 }
@@ -183,11 +186,13 @@ bool Verification::finishCheck()
 
 bool Verification::finishInside()
 {
-  const std::string reason = insideReason(this->Inside->gain(), this->Inside->besideMm());
+  const std::optional<double> gain = this->Inside->gain();
+  const std::string reason = insideReason(gain, this->Inside->besideMm());
   if (!reason.empty())
   {
     const bool isSecond = this->Found.trust == Trust::Doubtful; // of two checks that found a fault
-    this->Found.lower(isSecond ? Trust::Failed : Trust::Doubtful, reason);
+    const bool hasFailed = isSecond || *gain < FailedGainInside;
+    this->Found.lower(hasFailed ? Trust::Failed : Trust::Doubtful, reason);
   }
   if (this->Limits.blocks.make)
   {
@@ -205,7 +210,7 @@ void Verification::finishBlocks()
     const bool isSecond = this->Found.trust == Trust::Doubtful;
     this->Found.lower(isSecond ? Trust::Failed : Trust::Doubtful, reason);
   }
-  this->Search = std::make_unique<OrientationSearch>(this->Check.pair(), this->Result);
+  this->Search = std::make_unique<OrientationSearch>(this->Check.pair(), this->Start, this->Result);
 }
 
 Controls Verification::motionOfBlocks() const

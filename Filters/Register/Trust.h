@@ -68,14 +68,15 @@ class BRAINSHIFT_DEFORMATION_EXPORT Verification
 public:
   /**
    * @param pair     both volumes, the reference in its position
-   * @param result   the deformation, over the volume's box
+   * @param start    the deformation before the registration, over the volume's box
+   * @param result   the deformation after it
    * @param plan     with the metrics and limits of the check. The tissue within the outline
    *                 is not compared, blocks are not searched for, and orientations are not tried,
    *                 if the reference is ultrasound: a fan has too little in common with a head.
    * @param level    Refinement::takeLevel, which saves its preparation; or null
    */
-  Verification(RegisteredPair pair, const Lattice& result, const RefinementPlan& plan,
-    std::unique_ptr<PyramidLevel> level = nullptr);
+  Verification(RegisteredPair pair, const Lattice& start, const Lattice& result,
+    const RefinementPlan& plan, std::unique_ptr<PyramidLevel> level = nullptr);
 
   /** Bytes that the checks take beside the volumes themselves. */
   static double bytes(
@@ -108,6 +109,7 @@ private:
   ResultCheck Check;
   CheckPlan Limits;
   bool IsOfHeads; // the reference is no ultrasound
+  Lattice Start;
   Lattice Result;
   std::unique_ptr<InsideCheck> Inside;
   std::unique_ptr<BlockCheck> Blocks;

@@ -127,8 +127,8 @@ void vtkRegistrationRun::Running::BeginChecks()
 {
   if (this->Elastic)
   {
-    this->Checks = std::make_unique<Verification>(
-      this->Elastic->takePair(), this->Elastic->lattice(), this->Plan, this->Elastic->takeLevel());
+    this->Checks = std::make_unique<Verification>(this->Elastic->takePair(), this->From,
+      this->Elastic->lattice(), this->Plan, this->Elastic->takeLevel());
     return;
   }
   const RigidPose motion = this->Rigid->motion();
@@ -138,7 +138,8 @@ void vtkRegistrationRun::Running::BeginChecks()
     grid->origin = motion.apply(grid->origin);
     grid->direction = motion.rotation * grid->direction;
   }
-  this->Checks = std::make_unique<Verification>(std::move(this->Pair), this->Bent, this->Plan);
+  this->Checks =
+    std::make_unique<Verification>(std::move(this->Pair), this->Bent, this->Bent, this->Plan);
 }
 
 // Parts of the volume that belong elsewhere are brought there, and the refinement goes on from it.

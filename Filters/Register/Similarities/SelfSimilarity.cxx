@@ -4,7 +4,11 @@
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -67,9 +71,37 @@ void compare(const Volume& volume, const glm::ivec3& a, const glm::ivec3& b, Vol
   boxSum(sums, glm::ivec3(SelfSimilarityRadius));
 }
 
+// e to a power from -80 to 0, to 2e-7 of it: the rounding of single precision. Without a branch or
+// a call, so that vectors of numbers are taken.
+float expOf(float power)
+{
+  constexpr float Log2OfE = 1.44269504f;
+  constexpr float ToWhole = 12582912.0f; // 1.5 * 2^23: after a sum with it a number is whole
+  constexpr std::int32_t OneBits = 0x3f800000;
+  constexpr int ExponentBit = 23;
+  const float twos = Log2OfE * power;
+  const float shifted = twos + ToWhole;
+  const float whole = shifted - ToWhole;
+  const float part = twos - whole; // -0.5 to 0.5
+  // The series of 2^part = e^(part * log 2).
+  const float series = 1.0f +
+    part *
+      (0.693147181f +
+        part *
+          (0.240226507f +
+            part *
+              (0.0555041087f +
+                part * (0.00961812911f + part * (0.00133335581f + part * 0.000154035304f)))));
+  const std::int32_t bits = OneBits + static_cast<std::int32_t>(whole) * (1 << ExponentBit);
+  float scale;
+  std::memcpy(&scale, &bits, sizeof(scale));
+  return series * scale;
+}
+
 // Turns sums of squares into numbers from 0 to 1, where 1 is the most alike pair.
 void normalise(float* numbers, float meanNoise)
 {
+  constexpr float LeastPower = -80.0f; // less is 0
   float sum = 0.0f;
   float least = numbers[0];
   for (int pair = 0; pair < SelfSimilarityNumbers; ++pair)
@@ -79,42 +111,63 @@ void normalise(float* numbers, float meanNoise)
   }
   const float noise =
     std::clamp(sum / SelfSimilarityNumbers, LeastNoise * meanNoise, LargestNoise * meanNoise);
+  const float perNoise = noise >= std::numeric_limits<float>::min() ? 1.0f / noise : 0.0f;
   for (int pair = 0; pair < SelfSimilarityNumbers; ++pair)
   {
-    numbers[pair] = noise > 0.0f ? std::exp((least - numbers[pair]) / noise) : 1.0f;
+    numbers[pair] = expOf(std::max((least - numbers[pair]) * perNoise, LeastPower));
   }
+}
+
+// The pairs of neighbours, but for those across the middle: they would compare it with itself where
+// the volume is symmetric.
+std::vector<glm::ivec2> neighbourPairs()
+{
+  std::vector<glm::ivec2> pairs;
+  for (int a = 0; a < 6; ++a)
+  {
+    for (int b = a + 1; b < 6; ++b)
+    {
+      if (a / 2 != b / 2)
+      {
+        pairs.emplace_back(a, b);
+      }
+    }
+  }
+  return pairs;
 }
 }
 
 UnsetVector<float> selfSimilarity(const Volume& volume)
 {
+  constexpr int Group = 4; // pairs that are stored at once: memory is passed through less often
   const std::int64_t count = static_cast<std::int64_t>(volume.values.size());
   UnsetVector<float> result(volume.values.size() * SelfSimilarityNumbers);
-  Volume sums{ volume.grid, std::vector<float>(volume.values.size()) };
+  std::array<Volume, Group> sums;
+  sums.fill({ volume.grid, std::vector<float>(volume.values.size()) });
   const std::int64_t slab = static_cast<std::int64_t>(volume.grid.offset(0, 0, 1));
   std::vector<double> slabSums(volume.grid.dimensions.z, 0.0);
-  int pair = 0;
-  for (int a = 0; a < 6; ++a)
+  const std::vector<glm::ivec2> pairs = neighbourPairs();
+  for (int first = 0; first < SelfSimilarityNumbers; first += Group)
   {
-    for (int b = a + 1; b < 6; ++b)
+    for (int n = 0; n < Group; ++n)
     {
-      if (a / 2 == b / 2)
+      const glm::ivec2 pair = pairs[first + n];
+      compare(volume, neighbour(pair.x), neighbour(pair.y), sums[n]);
+    }
+    parallelFor(0, volume.grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t k = begin; k < end; ++k)
       {
-        continue; // across the middle: it would compare with itself where the volume is symmetric
-      }
-      compare(volume, neighbour(a), neighbour(b), sums);
-      parallelFor(0, volume.grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k)
+        for (std::int64_t i = k * slab; i < (k + 1) * slab; ++i)
         {
-          for (std::int64_t i = k * slab; i < (k + 1) * slab; ++i)
+          float* to = &result[i * SelfSimilarityNumbers + first];
+          for (int n = 0; n < Group; ++n)
           {
-            result[i * SelfSimilarityNumbers + pair] = sums.values[i];
-            slabSums[k] += sums.values[i];
+            to[n] = sums[n].values[i];
+            slabSums[k] += to[n];
           }
         }
-      });
-      ++pair;
-    }
+      }
+    });
   }
   const double all = std::accumulate(slabSums.begin(), slabSums.end(), 0.0);
   const float meanNoise = static_cast<float>(all / result.size());
@@ -424,12 +477,12 @@ const Metric ThinSelfSimilarity = thinSelfSimilarity();
 // right position. The local fit has no such bias, but finds positions from nearby only.
 const Metric QuadraticFit = quadraticFitMetric();
 
-constexpr double Converged = 1e-3; // a smaller gain comes from the noise
+constexpr double Converged = 2e-3; // a smaller gain comes from the noise
 
 // Coarse levels find what is wide. The last one begins nearly right, and may follow bends that are
 // narrow: it is a factor on the other.
 constexpr double CoarseStiffness = 1.5;
-constexpr double LastStiffness = 0.5;
+constexpr double LastStiffness = 0.75;
 constexpr double LastMm = 1.45;
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <string>
 
 using namespace brainshift;
@@ -50,9 +51,9 @@ Lattice still()
   return makeLattice(withDimensions(smallGrid(), { 9, 9, 9 }), KernelCatmullRom);
 }
 
-Verdict verdict(const RegisteredPair& pair, const Lattice& result)
+Verdict verdict(const RegisteredPair& pair, const Lattice& start, const Lattice& result)
 {
-  Verification checks(pair, result, plan());
+  Verification checks(pair, start, result, plan());
   double last = 0.0;
   int calls = 0;
   while (checks.step() && ++calls < 2000)
@@ -63,6 +64,11 @@ Verdict verdict(const RegisteredPair& pair, const Lattice& result)
   EXPECT_TRUE(checks.isFinished());
   EXPECT_EQ(checks.done(), 1.0);
   return checks.verdict();
+}
+
+Verdict verdict(const RegisteredPair& pair, const Lattice& result)
+{
+  return verdict(pair, result, result);
 }
 
 bool says(const Verdict& verdict, const std::string& words)
@@ -101,16 +107,49 @@ TEST(Trust, OtherTissueIsNotTrusted)
   EXPECT_FALSE(found.reasons.empty());
 }
 
+namespace
+{
+RegisteredPair mirroredPair()
+{
+  return pairOf([](const glm::dvec3& x) {
+    const glm::dvec3 normal = smallGrid().direction[0];
+    return x - 2.0 * glm::dot(x - middle(smallGrid()), normal) * normal;
+  });
+}
+}
+
 TEST(Trust, AMirroredReferenceIsNamed)
 {
-  const glm::dmat3 axes = smallGrid().direction;
-  const Verdict found = verdict(pairOf([&](const glm::dvec3& x) {
-    const glm::dvec3 normal = axes[0];
-    return x - 2.0 * glm::dot(x - middle(smallGrid()), normal) * normal;
-  }),
-    still());
+  const Verdict found = verdict(mirroredPair(), still());
   EXPECT_EQ(found.trust, Trust::Failed);
   EXPECT_TRUE(says(found, "if it is mirrored from left to right"));
+}
+
+// A refinement may bend the volume until it resembles the mirror image.
+TEST(Trust, AMirroredReferenceIsNamedHoweverTheVolumeWasBent)
+{
+  Lattice bent = still();
+  std::mt19937 random(5);
+  std::normal_distribution<float> normal(0.0f, 9.0f); // mm
+  for (glm::vec3& displacement : bent.displacements)
+  {
+    displacement = { normal(random), normal(random), normal(random) };
+  }
+  const std::string words = "if it is mirrored from left to right";
+  EXPECT_TRUE(says(verdict(mirroredPair(), still(), bent), words));
+  EXPECT_FALSE(says(verdict(mirroredPair(), bent, bent), words)) << "the test cannot tell";
+}
+
+TEST(Trust, NoiseFailsByWhatIsInside)
+{
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  RegisteredPair pair = pairOf(same);
+  for (float& value : pair.reference.values)
+  {
+    value = normal(random);
+  }
+  EXPECT_EQ(verdict(pair, still()).trust, Trust::Failed);
 }
 
 TEST(Trust, AHalfTurnIsNamed)
@@ -187,7 +226,7 @@ TEST(Trust, ASmallMaskTakesLittleMemory)
   noted.check.halves.metric = noting<0>(noted.check.halves.metric);
   noted.check.other.metric = noting<1>(noted.check.other.metric);
   const Lattice lattice = makeLattice(withDimensions(grid, { 9, 9, 9 }), KernelCatmullRom);
-  Verification checks(pair, lattice, noted);
+  Verification checks(pair, lattice, lattice, noted);
   while (checks.step())
   {
   }
