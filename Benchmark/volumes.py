@@ -2,11 +2,13 @@
 """Makes the volumes that floors.py measures, from the sample MRI and the mask of its brain.
 
 A speed depends on how much of a volume is visible, how noisy it is, and how fine. So there are
-four, by the size and the noise of real ones:
+four, by the size and the noise of real ones, and one of them by another map:
 
 bench head: the reference case, 256x256x150.
 noisy MR: 256x256x160. Rician noise of 9 % of bright tissue, the most that BrainWeb simulates
-    (Collins et al., IEEE Transactions on Medical Imaging 17(3), 1998). Air speckles.
+    (Collins et al., IEEE Transactions on Medical Imaging 17(3), 1998). The map begins above the
+    noise of air, as the look Skin does.
+speckled air: the same, by a map that begins within that noise, so that nothing can be skipped.
 CT: 512x512x160 voxels of 0.45x0.45x0.9 mm, 16 bits, Hounsfield units. Bone is a shell of 6 mm
     around the brain, soft tissue has 40 HU. Noise of 26 HU, as in the most even twentieth of the
     patches of 7x7 voxels in GE's CT of a liver, of dcmqi's data. Rays see bone, through skin of no
@@ -50,14 +52,14 @@ def _noise(shape, sd, seed):
     return numpy.random.default_rng(seed).standard_normal(shape, numpy.float32) * sd
 
 
-def noisy_mr(scale=1.0):
+def noisy_mr(scale=1.0, begins=4.0):
+    """`begins`: where the map does, times the parameter of the Rayleigh distribution of air."""
     head, spacing = sample_voxels("seg3d_mr_t1")
     grid = numpy.array([0.75, 0.85, 0.9]) / scale
     clean = _on_grid(head, spacing, [int(n * scale) for n in (256, 256, 160)], grid)
     sd = 255.0 * RICE
     noisy = numpy.hypot(clean + _noise(clean.shape, sd, 1), _noise(clean.shape, sd, 2))
-    # A map that hides most speckles in air: they have a Rayleigh distribution of this width.
-    air = 2.5 * sd
+    air = begins * sd
     opacities = {"opaque": (0, 0, air, 0, air + 2 * AIR, 1, 255, 1),
                  "translucent": (0, 0, air, 0, air + 5, 0.02, 255, 0.02)}
     return Volume(image_of(numpy.clip(noisy.round(), 0, 255).astype(numpy.uint8), grid), opacities,
@@ -129,5 +131,6 @@ def all_volumes(scale, files):
     """{name: function that makes the volume}. `scale`: 1, or less for a short run."""
     made = {"bench head": lambda: reference_volume(tuple(int(n * scale) for n in (256, 256, 150))),
             "noisy MR": lambda: noisy_mr(scale), "CT": lambda: ct(scale),
-            "high-resolution head": lambda: fine_head(scale)}
+            "high-resolution head": lambda: fine_head(scale),
+            "speckled air": lambda: noisy_mr(scale, 2.5)}
     return {**made, **{file: lambda file=file: from_file(file) for file in files}}

@@ -192,6 +192,30 @@ TEST(Looks, FindMRAndItsSkinWhateverItsUnits)
   }
 }
 
+// Magnitudes with noise in both of their parts: a Rayleigh distribution in air.
+TEST(Looks, AreAboveTheNoiseOfAir)
+{
+  const auto head = [](double noise) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal(0.0, noise);
+    constexpr std::array<double, 4> Means{ 0.0, 200.0, 60.0, 150.0 };
+    return volumeOn(headGrid(), VTK_FLOAT, [&](vtkIdType voxel) {
+      const double real = Means[static_cast<int>(tissueAt(voxel))] + normal(random);
+      return std::hypot(real, normal(random));
+    });
+  };
+  const auto opacity = [&](const char* look, double noise, double value) {
+    return opacityAt(makeLook(look, readIntensities(head(noise), Values)), value);
+  };
+  for (const double noise : { 12.0, 23.0 })
+  {
+    EXPECT_EQ(opacity("Skin", noise, 3.4 * noise), 0.0) << noise;
+    EXPECT_EQ(opacity("See-through", noise, 3.4 * noise), 0.0) << noise;
+    EXPECT_EQ(opacity("Skin", noise, 170.0), 1.0) << noise;
+  }
+  EXPECT_GT(opacity("Skin", 2.0, 70.0), 0.0) << "little noise changes nothing";
+}
+
 TEST(Looks, FindCTByItsAir)
 {
   const Intensities values = readIntensities(ctHead(), Values);
