@@ -71,15 +71,17 @@ void compare(const Volume& volume, const glm::ivec3& a, const glm::ivec3& b, Vol
   boxSum(sums, glm::ivec3(SelfSimilarityRadius));
 }
 
-// e to a power from -80 to 0, to 2e-7 of it: the rounding of single precision. Without a branch or
-// a call, so that vectors of numbers are taken.
+// e to a power of at most 0, to 2e-7 of it: the rounding of single precision. Below -80 it is that
+// of -80, which is 2e-35; of NaN it is NaN. Without a branch or a call, so that vectors of numbers
+// are taken.
 float expOf(float power)
 {
+  constexpr float LeastPower = -80.0f;
   constexpr float Log2OfE = 1.44269504f;
   constexpr float ToWhole = 12582912.0f; // 1.5 * 2^23: after a sum with it a number is whole
   constexpr std::int32_t OneBits = 0x3f800000;
   constexpr int ExponentBit = 23;
-  const float twos = Log2OfE * power;
+  const float twos = Log2OfE * std::max(LeastPower, power); // of NaN that of the least
   const float shifted = twos + ToWhole;
   const float whole = shifted - ToWhole;
   const float part = twos - whole; // -0.5 to 0.5
@@ -95,13 +97,12 @@ float expOf(float power)
   const std::int32_t bits = OneBits + static_cast<std::int32_t>(whole) * (1 << ExponentBit);
   float scale;
   std::memcpy(&scale, &bits, sizeof(scale));
-  return series * scale;
+  return std::isnan(power) ? power : series * scale;
 }
 
 // Turns sums of squares into numbers from 0 to 1, where 1 is the most alike pair.
 void normalise(float* numbers, float meanNoise)
 {
-  constexpr float LeastPower = -80.0f; // less is 0
   float sum = 0.0f;
   float least = numbers[0];
   for (int pair = 0; pair < SelfSimilarityNumbers; ++pair)
@@ -114,7 +115,7 @@ void normalise(float* numbers, float meanNoise)
   const float perNoise = noise >= std::numeric_limits<float>::min() ? 1.0f / noise : 0.0f;
   for (int pair = 0; pair < SelfSimilarityNumbers; ++pair)
   {
-    numbers[pair] = expOf(std::max((least - numbers[pair]) * perNoise, LeastPower));
+    numbers[pair] = expOf((least - numbers[pair]) * perNoise);
   }
 }
 
