@@ -145,6 +145,7 @@ TEST(Stiffness, AStepSolvesItsEquations)
   // Without a step before, a fixed share of the lumped Hessian counts.
   const auto stiff = stiffness.times(step);
   std::vector<glm::vec3> lumped;
+  lumped.reserve(grid.count());
   for (std::size_t i = 0; i < grid.count(); ++i)
   {
     lumped.push_back(hessianOf(&forces[i * ForceNumbers]) * step[i]);
