@@ -19,6 +19,35 @@ float freedomAt(const Lattice& lattice, const glm::vec3& at)
 }
 }
 
+void toFractions(std::vector<float>& values, const std::vector<float>& weights)
+{
+  std::vector<float> counting;
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    if (weights[i] > 0.0f)
+    {
+      counting.push_back(values[i]);
+    }
+  }
+  const Range range = rangeOf(counting);
+  for (float& value : values)
+  {
+    value = range.fraction(value);
+  }
+}
+
+std::vector<float> LevelVolumes::brightEdgeRise() const
+{
+  std::vector<float> values = this->rest.values;
+  toFractions(values, this->restWeights.values);
+  std::vector<float> edges = gradientLength(this->rest);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    edges[i] *= values[i];
+  }
+  return riseAlong({ this->rest.grid, std::move(edges) }, this->beam);
+}
+
 LevelSamples::LevelSamples(const LevelVolumes& level, const Lattice& lattice)
   : rows(lattice, level.rest.grid)
   , referenceWeights(level.referenceWeights)

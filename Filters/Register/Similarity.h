@@ -31,6 +31,9 @@ struct LevelVolumes
   /** Where the probe of an ultrasound reference looks: world, of length 1; 0: it is not known. */
   glm::dvec3 beam{ 0.0 };
 
+  /** The second term of a fit in windows, at the points of `rest`; empty: the metric makes it. */
+  std::vector<float> secondTerm;
+
   // An echo begins where its edge is, and rings on behind it: its middle is too deep. So what is
   // compared is how both rise along the beam, for each mm.
   std::vector<float> echoRise() const { return riseAlong(this->reference, this->beam); }
@@ -38,7 +41,16 @@ struct LevelVolumes
   {
     return riseAlong({ this->rest.grid, gradientLength(this->rest) }, this->beam);
   }
+
+  /**
+   * The same of edges times the volume's value, as a fraction of its range: of their bright sides.
+   * Together with edgeRise(), a fit finds on which side the echo is, and which tissues are loud.
+   */
+  std::vector<float> brightEdgeRise() const;
 };
+
+/** Values as fractions of their range, which those define whose weight is above 0. */
+void toFractions(std::vector<float>& values, const std::vector<float>& weights);
 
 /** The cost of a displacement, and its derivatives. */
 struct CostAndForces

@@ -90,7 +90,9 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
   }
   if (figures.rivalGain && *figures.rivalGain < DoubtfulGain * limits.rivalGain)
   {
-    verdict.lower(*figures.rivalGain < limits.rivalGain ? Trust::Failed : Trust::Doubtful,
+    const bool isSecond = verdict.trust == Trust::Doubtful; // of two checks that found a fault
+    verdict.lower(
+      isSecond || *figures.rivalGain < limits.rivalGain ? Trust::Failed : Trust::Doubtful,
       "A search from places nearby ends " + inMm(figures.rivalMm) +
         " away on average, where the volumes match " +
         (*figures.rivalGain < 0.0 ? "better." : "nearly as well.") +

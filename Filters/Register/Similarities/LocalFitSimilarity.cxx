@@ -162,24 +162,6 @@ enum Left
   Lefts
 };
 
-// `weights`: 1 for values that define the range, else 0.
-void toFractions(std::vector<float>& values, const std::vector<float>& weights)
-{
-  std::vector<float> counting;
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    if (weights[i] > 0.0f)
-    {
-      counting.push_back(values[i]);
-    }
-  }
-  const Range range = rangeOf(counting);
-  for (float& value : values)
-  {
-    value = range.fraction(value);
-  }
-}
-
 // The variance of the values that count in each window.
 std::vector<float> windowVariances(
   Windows& around, const std::vector<float>& values, const Volume& weights)
@@ -282,7 +264,8 @@ void LocalFitSimilarity::readSecond(const LevelVolumes& level, SecondTerm second
 {
   if (second == SecondTerm::GradientLength)
   {
-    this->Second = gradientLength({ level.rest.grid, this->Rest });
+    this->Second =
+      level.secondTerm.empty() ? gradientLength({ level.rest.grid, this->Rest }) : level.secondTerm;
     toFractions(this->Second, level.restWeights.values);
   }
   else if (second == SecondTerm::Square)

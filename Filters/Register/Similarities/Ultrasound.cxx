@@ -27,11 +27,13 @@ constexpr int KeptPositions = 3; // of a search from several starts
 const Metric Self = thinSelfSimilarityWithEdges();
 const Metric LC2 = linearFitWithGradients();
 
-// LC2 explains how echoes rise by how edges do, if the beam is known.
+// LC2 explains how echoes rise by how edges do, if the beam is known. How loud an edge is, and on
+// which side of it the echo is, depends on its tissues: so the second term has the bright sides.
 LevelVolumes risesOf(LevelVolumes level)
 {
   if (level.beam != glm::dvec3(0.0))
   {
+    level.secondTerm = level.brightEdgeRise();
     std::vector<float> rise = level.edgeRise();
     level.reference.values = level.echoRise();
     level.rest.values = std::move(rise);

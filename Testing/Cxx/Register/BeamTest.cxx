@@ -24,6 +24,8 @@ Grid fineGrid(const glm::ivec3& sides)
 }
 
 constexpr double EdgeMm = 10.0; // z, on the grid's axis
+constexpr double InMm = 9.0;    // where a dark sheet begins, and where it ends
+constexpr double OutMm = 21.0;
 
 // An edge of the volume, and its echo, which goes on behind it.
 LevelVolumes edgeWithEcho()
@@ -39,6 +41,34 @@ LevelVolumes edgeWithEcho()
   volumes.restWeights = weightsOf(grid, {}, {});
   volumes.referenceWeights = volumes.restWeights;
   return volumes;
+}
+
+// Bright tissue with a dark sheet, as a sulcus: the beam meets an edge into it and one out of it.
+LevelVolumes darkSheet(double factor, double offset)
+{
+  const Grid grid = fineGrid({ 12, 12, 32 });
+  LevelVolumes volumes;
+  volumes.rest = filled(grid, [&](const glm::dvec3& at) {
+    const double into = std::tanh(0.8 * (at.z - InMm));
+    const double outOf = std::tanh(0.8 * (at.z - OutMm));
+    return offset + factor * (1.0 - 0.5 * (into - outOf));
+  });
+  volumes.restWeights = weightsOf(grid, {}, {});
+  volumes.beam = { 0.0, 0.0, 1.0 };
+  return volumes;
+}
+
+// The middle of what rises between two depths, mm.
+double middleOf(const std::vector<float>& rise, const Grid& grid, double fromMm, double toMm)
+{
+  double sum = 0.0;
+  double moment = 0.0;
+  for (int k = static_cast<int>(fromMm); k < static_cast<int>(toMm); ++k)
+  {
+    sum += rise[grid.offset(5, 6, k)];
+    moment += k * rise[grid.offset(5, 6, k)];
+  }
+  return moment / sum;
 }
 
 RefinementPlan byUltrasound()
@@ -104,6 +134,25 @@ TEST(Beam, WhatFallsBehindAnEdgeDoesNotCount)
     EXPECT_EQ(echo[at(k)], 0.0f) << k;
     EXPECT_EQ(edge[at(k)], 0.0f) << k;
   }
+}
+
+TEST(Beam, TellsTheBrightSideOfAnEdgeFromItsDarkOne)
+{
+  // How much deeper edges are that count by their value: into the dark sheet, and out of it.
+  const auto deeper = [](double factor, double offset) {
+    const LevelVolumes volumes = darkSheet(factor, offset);
+    const Grid& grid = volumes.rest.grid;
+    const double middle = (InMm + OutMm) / 2.0;
+    const std::vector<float> edge = volumes.edgeRise();
+    const std::vector<float> bright = volumes.brightEdgeRise();
+    return glm::dvec2(middleOf(bright, grid, 2.0, middle) - middleOf(edge, grid, 2.0, middle),
+      middleOf(bright, grid, middle, 30.0) - middleOf(edge, grid, middle, 30.0));
+  };
+  const glm::dvec2 found = deeper(1.0, 0.0);
+  EXPECT_LT(found.x, -0.1);
+  EXPECT_GT(found.y, 0.1);
+  // The scale of the values does not matter.
+  EXPECT_NEAR(glm::distance(deeper(300.0, -150.0), found), 0.0, 0.01);
 }
 
 TEST(Beam, ChangesWhatUltrasoundCompares)

@@ -277,6 +277,9 @@ TEST(Trust, APlaceNearbyThatMatchesAsWellFailsOrMakesItDoubtful)
   EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Good);
   figures.rivalGain = 0.059;
   EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Doubtful);
+  figures.halvesMm = 1.1 * limits.halvesMm;
+  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Failed) << "two checks found a fault";
+  figures.halvesMm = 1.0;
   figures.rivalGain = 0.009;
   EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Failed);
   EXPECT_TRUE(says(verdictOf(figures, limits), "6 mm away on average"));
