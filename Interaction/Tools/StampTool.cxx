@@ -27,13 +27,12 @@ public:
   void cancel() override;
 
 private:
-  bool outline(const glm::dvec2& pixel);
-  bool take(const glm::dvec2& pixel);
+  void outline(const Spot& spot, const glm::dvec2& pixel);
   glm::dvec3 interestFrom(const Spot& spot);
   bool isAtLastStroke(const glm::dvec2& pixel) const;
   void show(const Stroke& stroke, double amount);
   void apply(double amount);
-  void clickWheel(const HandEvent& event);
+  void clickWheel(const HandEvent& event, const std::optional<Spot>& spot);
   void changeRadius(const HandEvent& event);
 
   Stroke Latest;                   ///< The stroke that is outlined, under the hand or made last.
@@ -46,34 +45,22 @@ private:
   glm::dvec2 PullOnScreen{ 0.0 };  ///< During a drag: mm per pixel of the screen.
 };
 
-// The stamp over the tissue at a pixel. False where there is none.
-bool StampTool::outline(const glm::dvec2& pixel)
+// The stamp over the tissue at a pixel. `Aims` is false where there is no direction to push it.
+void StampTool::outline(const Spot& spot, const glm::dvec2& pixel)
 {
-  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixel);
-  if (!spot)
-  {
-    return false;
-  }
-  this->Interest = this->interestFrom(*spot);
-  const glm::dvec3 fromInterest = this->Interest - spot->position;
+  this->Interest = this->interestFrom(spot);
+  const glm::dvec3 fromInterest = this->Interest - spot.position;
   constexpr double nearest = 1e-3; // mm; a nearer point gives no direction
   this->Aims = glm::length(fromInterest) >= nearest;
   // Without a direction the ellipsoid keeps its axis, so that it does not vanish under the cursor.
   const bool hadAxis = glm::length(this->Latest.axis) > 0.0;
   const glm::dvec3 axis = hadAxis ? this->Latest.axis : this->Bench.probe.ahead();
-  this->Slice = spot->slice;
-  this->Latest = this->strokeAt(spot->position, Tool::Stamp);
+  this->Slice = spot.slice;
+  this->Latest = this->strokeAt(spot.position, Tool::Stamp);
   this->Latest.axis = this->Aims ? glm::normalize(fromInterest) : axis;
   this->Amount = 0.0;
   this->Made = false;
   this->TakenAt = pixel;
-  return true;
-}
-
-// The stamp over the tissue at a pixel. False where there is no tissue, or no direction to push it.
-bool StampTool::take(const glm::dvec2& pixel)
-{
-  return this->outline(pixel) && this->Aims;
 }
 
 // The point of interest; in a slice the nearest point of the slice to it. So what is matched in a
@@ -125,14 +112,14 @@ void StampTool::hover(const HandEvent& event)
   {
     return;
   }
-  if (this->outline(pixelOf(event)))
-  {
-    this->show(this->Latest, 0.0);
-  }
-  else
+  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixelOf(event));
+  if (!spot)
   {
     this->Bench.drawing.Clear();
+    return;
   }
+  this->outline(*spot, pixelOf(event));
+  this->show(this->Latest, 0.0);
 }
 
 void StampTool::apply(double amount)
@@ -147,7 +134,12 @@ bool StampTool::press(const HandEvent& event)
 {
   this->settle();
   const std::optional<Spot> spot = this->Bench.probe.spotAt(pixelOf(event));
-  if (!spot || isForSlices(event, *spot) || !this->take(pixelOf(event)))
+  if (!spot || isForSlices(event, *spot))
+  {
+    return false;
+  }
+  this->outline(*spot, pixelOf(event));
+  if (!this->Aims)
   {
     return false;
   }
@@ -177,15 +169,15 @@ void StampTool::drag(const HandEvent& event)
   }
 }
 
-void StampTool::clickWheel(const HandEvent& event)
+// `spot`: where a new stroke begins; none: the last one goes on.
+void StampTool::clickWheel(const HandEvent& event, const std::optional<Spot>& spot)
 {
-  const bool again = this->isAtLastStroke(pixelOf(event));
-  const bool under = again && this->isDragging();
-  if (!again)
+  const bool under = !spot && this->isDragging();
+  if (spot)
   {
-    this->settle();
+    this->outline(*spot, pixelOf(event));
   }
-  if (!again && !this->take(pixelOf(event)))
+  if (spot && !this->Aims)
   {
     return;
   }
@@ -194,7 +186,7 @@ void StampTool::clickWheel(const HandEvent& event)
   {
     this->Bench.editor.change(this->Latest);
   }
-  else if (again)
+  else if (!spot)
   {
     this->Bench.editor.beginAtLast(this->Latest);
   }
@@ -224,15 +216,26 @@ void StampTool::changeRadius(const HandEvent& event)
 bool StampTool::wheel(const HandEvent& event)
 {
   const Command command = commandOf(Tool::Stamp, Mouse::Wheel, event);
-  const bool acts = command != Command::None && !event.alt &&
-    (this->isAtLastStroke(pixelOf(event)) || this->Bench.probe.spotAt(pixelOf(event)));
+  if (command == Command::None || event.alt)
+  {
+    return false;
+  }
+  // A far server answers each question a round trip later, so it is asked once: about the picture
+  // of the stroke that is done.
+  const bool again = this->isAtLastStroke(pixelOf(event));
+  if (!again)
+  {
+    this->settle();
+  }
+  const std::optional<Spot> spot = again ? std::nullopt : this->Bench.probe.spotAt(pixelOf(event));
+  const bool acts = again || spot;
   if (acts && command == Command::ChangeRadius)
   {
     this->changeRadius(event);
   }
   else if (acts)
   {
-    this->clickWheel(event);
+    this->clickWheel(event, spot);
   }
   return acts;
 }

@@ -28,8 +28,8 @@ namespace brainshift
 namespace
 {
 constexpr qint64 FiguresMs = 250; // at least, from one update to the next: faster cannot be read
-// A far server answers each figure a round trip later, and the hand waits for them. So they may
-// take a tenth of a drag's time.
+// A far server answers a round trip later, and the hand waits for it. So figures may take a tenth of
+// a drag's time.
 constexpr qint64 DragsShare = 10;
 
 void showGraded(QLabel* label, const QString& text, Grade grade)
@@ -121,9 +121,8 @@ void ResultWidget::showGuard()
   this->Guard->setChecked(vtkSMPropertyHelper(this->proxy(), "GuardFolding").GetAsInt() != 0);
 }
 
-double ResultWidget::figure(const char* property)
+double ResultWidget::figure(const char* property) const
 {
-  this->proxy()->UpdatePropertyInformation(this->proxy()->GetProperty(property));
   return vtkSMPropertyHelper(this->proxy(), property).GetAsDouble();
 }
 
@@ -152,6 +151,7 @@ void ResultWidget::showFigures()
     this->Jacobian->setText(QString());
     return;
   }
+  this->proxy()->UpdatePropertyInformation(); // all figures in one round trip to a server
   this->Displacement->setText(
     tr("<b>%1 mm</b>").arg(this->figure("MaximumDisplacement"), 0, 'f', 1));
   const double determinant = this->figure("MinimumJacobian");

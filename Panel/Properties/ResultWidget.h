@@ -43,7 +43,7 @@ private:
   void addGuard(QVBoxLayout* column);
   void setGuard(bool on);
   void showFiguresSoon();
-  double figure(const char* property);
+  double figure(const char* property) const;
 
   pqPipelineSource* const Source;
   QLabel* Displacement = nullptr;
