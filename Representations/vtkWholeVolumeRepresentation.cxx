@@ -17,7 +17,6 @@
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkOutlineSource.h"
-#include "vtkPVDataDeliveryManager.h"
 #include "vtkPVLODVolume.h"
 #include "vtkPVRenderView.h"
 #include "vtkPVSession.h"
@@ -90,16 +89,7 @@ bool mayHaveRanks()
   vtkProcessModule* process = vtkProcessModule::GetProcessModule();
   auto session = vtkPVSession::SafeDownCast(process ? process->GetSession() : nullptr);
   constexpr vtkTypeUInt32 Both = vtkPVSession::CLIENT | vtkPVSession::DATA_SERVER;
-  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
-  return !session || (session->GetProcessRoles() & Both) != Both ||
-    (ranks && ranks->GetNumberOfProcesses() > 1);
-}
-
-// Whether one process serves a client, in both of them.
-bool isOneServer()
-{
-  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
-  return mayHaveRanks() && (!ranks || ranks->GetNumberOfProcesses() == 1);
+  return !session || (session->GetProcessRoles() & Both) != Both || brainshift::severalRanks();
 }
 }
 
@@ -158,7 +148,7 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
         ShareOut(group, input, output);
       }
     }
-    else if (request == vtkPVView::REQUEST_RENDER() && this->GetNeedsUpdate() && isOneServer())
+    else if (request == vtkPVView::REQUEST_RENDER() && this->IsBehind(input))
     {
       this->Overtake(input);
     }
@@ -172,16 +162,34 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
   });
 }
 
+// Whether a picture is drawn before the view brought its data, the same on all ranks. Each of them
+// comes here for every picture. Ranks that draw several volumes share them out together: these wait
+// for the view's update.
+bool vtkWholeVolumeRepresentation::IsBehind(vtkInformation* input)
+{
+  vtkMultiProcessController* ranks = brainshift::severalRanks();
+  if (!ranks)
+  {
+    return this->GetNeedsUpdate() && mayHaveRanks();
+  }
+  auto view = vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW()));
+  const bool isReady = !this->GetNeedsUpdate() || this->GroupIn(view).size() > 1;
+  return !brainshift::isTrueOnAny(ranks, isReady);
+}
+
 // A client draws a stroke under the hand ahead of the view's update, for a far server answers each
-// question of an update one round trip later. Its data comes here.
+// question of an update one round trip later. Its data comes here. Ranks keep their boxes, since
+// the view has ordered the ranks by them.
 void vtkWholeVolumeRepresentation::Overtake(vtkInformation* input)
 {
   auto view = vtkPVView::SafeDownCast(input->Get(vtkPVView::VIEW()));
   vtkNew<vtkInformation> output;
-  if (view && this->ProcessViewRequest(vtkPVView::REQUEST_UPDATE(), input, output))
+  this->KeepsBoxes = true;
+  const bool brought = view && this->ProcessViewRequest(vtkPVView::REQUEST_UPDATE(), input, output);
+  this->KeepsBoxes = false;
+  if (brought)
   {
-    unsigned int volume[] = { this->GetUniqueIdentifier(), 0 }; // and its port
-    view->GetDeliveryManager()->Deliver(/*use_low_res*/ 0, 2, volume);
+    brainshift::deliverNow(this, view);
   }
 }
 
@@ -216,12 +224,14 @@ void vtkWholeVolumeRepresentation::WidenBounds()
   }
 }
 
-// The volumes of the view that are drawn bent, in the order in which they are updated.
+// The volumes of the view that are drawn bent, in the order in which they are updated. A view lists
+// one that is part of a composite twice.
 vtkWholeVolumeRepresentation::Group vtkWholeVolumeRepresentation::GroupIn(vtkPVRenderView* view)
 {
   Group group;
   forEachShown(view, [&](vtkDataRepresentation* shown) {
-    if (auto volume = vtkWholeVolumeRepresentation::SafeDownCast(shown))
+    auto volume = vtkWholeVolumeRepresentation::SafeDownCast(shown);
+    if (volume && std::find(group.begin(), group.end(), volume) == group.end())
     {
       group.push_back(volume);
     }
@@ -305,8 +315,8 @@ void vtkWholeVolumeRepresentation::Bring(
 void vtkWholeVolumeRepresentation::ShareOut(
   const Group& group, vtkInformation* input, vtkInformation* output)
 {
-  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
-  if (!ranks || ranks->GetNumberOfProcesses() == 1)
+  vtkMultiProcessController* ranks = brainshift::severalRanks();
+  if (!ranks)
   {
     return;
   }
@@ -507,7 +517,7 @@ brainshift::Box vtkWholeVolumeRepresentation::ShareWork(
   ranks->AllReduce(own.data(), counts.cells.data(), own.size(), vtkCommunicator::SUM_OP);
   vtkWholeVolumeRepresentation* first = group.front();
   const std::vector<brainshift::Box> parts = brainshift::balancedParts(
-    first->RankBoxes, first->AllBoxes, ranks->GetNumberOfProcesses(), counts);
+    first->RankBoxes, first->AllBoxes, ranks->GetNumberOfProcesses(), counts, first->KeepsBoxes);
   for (vtkWholeVolumeRepresentation* volume : group)
   {
     volume->RankBoxes = parts;

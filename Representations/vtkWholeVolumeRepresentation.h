@@ -107,6 +107,7 @@ private:
   using Group = std::vector<vtkWholeVolumeRepresentation*>; // what a view shows, one or more
   struct Taken;
 
+  bool IsBehind(vtkInformation* input);
   void Overtake(vtkInformation* input);
   Group GroupIn(vtkPVRenderView* view);
   static std::string WhyWholeIn(vtkPVRenderView* view, const Group& group);
@@ -146,6 +147,7 @@ private:
   bool IsDrawnElsewhere = false;
   bool MayDrawPart = false;  // as far as settings and the view say
   bool DrawsPart = false;    // of several ranks
+  bool KeepsBoxes = false;   // also if their work is out of balance
   double RankHalo = 10.0;    // mm
   std::array<int, 6> Wanted; // extent of voxels to draw
 

@@ -28,8 +28,8 @@ namespace brainshift
 namespace
 {
 constexpr qint64 FiguresMs = 250; // at least, from one update to the next: faster cannot be read
-// A far server answers a round trip later, and the hand waits for it. So figures may take a tenth of
-// a drag's time.
+// A far server answers a round trip later, and the hand waits for it. So figures may take a tenth
+// of a drag's time.
 constexpr qint64 DragsShare = 10;
 
 void showGraded(QLabel* label, const QString& text, Grade grade)

@@ -190,11 +190,16 @@ std::vector<Box> rankParts(const Box& whole, int ranks, const TissueCounts* coun
   return parts;
 }
 
-std::vector<Box> balancedParts(
-  const std::vector<Box>& parts, const Box& former, int ranks, const TissueCounts& counts)
+std::vector<Box> balancedParts(const std::vector<Box>& parts, const Box& former, int ranks,
+  const TissueCounts& counts, bool keeps)
 {
   std::vector<Box> kept = fitted(parts, former, counts.box);
-  if (kept.size() != static_cast<std::size_t>(ranks) || !isBalanced(kept, counts))
+  const bool fits = kept.size() == static_cast<std::size_t>(ranks);
+  if (keeps && fits)
+  {
+    return kept;
+  }
+  if (!fits || !isBalanced(kept, counts))
   {
     kept = rankParts(counts.box, ranks);
   }

@@ -72,9 +72,10 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> rankParts(
  *
  * @param parts    the former parts, may be empty; sides that were sides of the whole follow it
  * @param former   the whole that these are parts of
+ * @param keeps    the former parts are kept, whatever their work, as far as they fit
  */
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> balancedParts(
-  const std::vector<Box>& parts, const Box& former, int ranks, const TissueCounts& counts);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> balancedParts(const std::vector<Box>& parts,
+  const Box& former, int ranks, const TissueCounts& counts, bool keeps = false);
 
 /** A part without those of its sides that are sides of the whole: they are far outside. Rays go to
  * their ends there. */

@@ -7,6 +7,7 @@
 #include "vtkOutputWindow.h"
 #include "vtkPVDataDeliveryManager.h"
 #include "vtkPVDataRepresentation.h"
+#include "vtkPVRenderViewDataDeliveryManager.h"
 #include "vtkPVSessionBase.h"
 #include "vtkPVView.h"
 #include "vtkProcessModule.h"
@@ -23,6 +24,18 @@ void deliverWithStandIns(
     const unsigned int id = representation->GetUniqueIdentifier();
     unsigned int volumeAndOutline[] = { id, 0, id, 1 }; // their ports
     view->GetDeliveryManager()->Deliver(/*use_low_res*/ 0, 4, volumeAndOutline);
+  }
+}
+
+void deliverNow(vtkPVDataRepresentation* representation, vtkPVView* view)
+{
+  vtkPVDataDeliveryManager* delivery = view->GetDeliveryManager();
+  unsigned int volume[] = { representation->GetUniqueIdentifier(), 0 }; // and its port
+  delivery->Deliver(/*use_low_res*/ 0, 2, volume);
+  auto ordered = vtkPVRenderViewDataDeliveryManager::SafeDownCast(delivery);
+  if (ordered && ordered->GetUseRedistributedDataAsDeliveredData())
+  {
+    ordered->RedistributeDataForOrderedCompositing(/*use_lod*/ false);
   }
 }
 

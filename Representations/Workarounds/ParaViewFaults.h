@@ -11,6 +11,7 @@
 class vtkInformation;
 class vtkInformationRequestKey;
 class vtkPVDataRepresentation;
+class vtkPVView;
 
 namespace brainshift
 {
@@ -20,6 +21,10 @@ namespace brainshift
 /// volume itself.
 void deliverWithStandIns(vtkPVDataRepresentation* representation, vtkInformationRequestKey* request,
   vtkInformation* input);
+
+/// Delivers a volume that came after the view's update. ParaView takes what it gives to the ranks
+/// of an ordered picture before it asks representations, so this takes it again.
+void deliverNow(vtkPVDataRepresentation* representation, vtkPVView* view);
 
 /**
  * Watches the connection to the server of the active session. When it is lost, one message reports

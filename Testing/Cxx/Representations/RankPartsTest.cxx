@@ -162,6 +162,7 @@ TEST(RankParts, StayUntilTheirWorkIsFarFromTheMean)
   fill(0.0, 40.0); // a part has 1.3 times the mean
   EXPECT_EQ(balancedParts(equal, counts.box, ranks, counts), equal);
   fill(0.0, 8.0);
+  EXPECT_EQ(balancedParts(equal, counts.box, ranks, counts, /*keeps*/ true), equal);
   const std::vector<Box> moved = balancedParts(equal, counts.box, ranks, counts);
   EXPECT_LT(moved[0][1], 8.0);
 
@@ -178,6 +179,7 @@ TEST(RankParts, StayUntilTheirWorkIsFarFromTheMean)
   // Another volume: they do not fit.
   counts.box = { 100, 164, 0, 16, 0, 16 };
   EXPECT_EQ(balancedParts(moved, former, ranks, counts)[0][0], 100.0);
+  EXPECT_EQ(balancedParts(moved, former, ranks, counts, /*keeps*/ true)[0][0], 100.0);
 }
 
 TEST(RankParts, HaveAllTissueThatComesIntoThem)

