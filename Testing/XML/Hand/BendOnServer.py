@@ -91,9 +91,9 @@ def drag(far, bent, view, display, tool, kind):
         hand.drag_to([start[0] + step, start[1] + step])
         hand.wait(50)
         trips.append(far.counts()["roundTrips"] - last)
-    # Beside some of them, the panel asks for its figures.
+    # Two for the picture. Beside slow steps the panel asks for its figures, in one more.
     print("round trips of each step with", tool, kind, trips, flush=True)
-    assert min(trips) <= 2, (tool, kind, trips)
+    assert min(trips) <= 3, (tool, kind, trips)
     assert len(strokes()) == 1 and strokes()[0][0] == number, (tool, kind, strokes())
     window.until(lambda: brainshift.counters(display)["latticeUploads"] > drawn,
                  f"the server draws {kind} while tool {tool} drags")

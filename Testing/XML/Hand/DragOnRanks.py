@@ -81,9 +81,9 @@ def drag_one(far, bent, view, display, kind):
         hand.wait(50)
         trips.append(far.counts()["roundTrips"] - last)
         pictures.append(shown(view))
-    # Beside some of them, the panel asks for its figures.
+    # Two for the picture. Beside slow steps the panel asks for its figures, in one more.
     print("round trips of each step with", kind, trips, flush=True)
-    assert min(trips) <= 2, (kind, trips)
+    assert min(trips) <= 3, (kind, trips)
     assert brainshift.counters(display)["latticeUploads"] >= drawn + 4, kind
     moved = [numpy.abs(one - other).max() for one, other in zip(pictures, pictures[1:])]
     assert min(moved) > 20, (kind, "the picture follows each step", moved)
