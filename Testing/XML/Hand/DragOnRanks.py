@@ -9,11 +9,9 @@ import far_network
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import server, server_finds_plugin
+from brainshift_testing import on_screen, server, server_finds_plugin
 from paraview import simple
 from ranks_testing import MPI
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 MIDDLE = (20.0, 20.0, 20.0)
 RANKS = "2"
@@ -44,18 +42,6 @@ def show():
     return bent, view, display
 
 
-def shown(view):
-    """What the window shows now: nothing is drawn for it."""
-    read = vtkWindowToImageFilter()
-    read.SetInput(view.GetRenderWindow())
-    read.ShouldRerenderOff()
-    read.ReadFrontBufferOff()
-    read.Update()
-    image = read.GetOutput()
-    width, height, _ = image.GetDimensions()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1).astype(int)
-
-
 def drag(far):
     bent, view, display = show()
     for kind in ("Deformed Volume", "Deformed Slices"):
@@ -74,13 +60,13 @@ def drag_one(far, bent, view, display, kind):
     hand.drag_to([start[0] + 2, start[1] + 2])
     hand.wait(50)
     drawn = brainshift.counters(display)["latticeUploads"]
-    pictures, trips = [shown(view)], []
+    pictures, trips = [on_screen(view)], []
     for step in (8, 14, 20, 26):
         last = far.counts()["roundTrips"]
         hand.drag_to([start[0] + step, start[1] + step])
         hand.wait(50)
         trips.append(far.counts()["roundTrips"] - last)
-        pictures.append(shown(view))
+        pictures.append(on_screen(view))
     # Two for the picture. Beside slow steps the panel asks for its figures, in one more.
     print("round trips of each step with", kind, trips, flush=True)
     assert min(trips) <= 3, (kind, trips)
@@ -88,7 +74,7 @@ def drag_one(far, bent, view, display, kind):
     moved = [numpy.abs(one - other).max() for one, other in zip(pictures, pictures[1:])]
     assert min(moved) > 20, (kind, "the picture follows each step", moved)
     view.SMProxy.InteractiveRender()
-    own = numpy.abs(shown(view) - pictures[-1]).max()
+    own = numpy.abs(on_screen(view) - pictures[-1]).max()
     assert own == 0, (kind, "ParaView's own update draws the same", own)
     hand.release([start[0] + 26, start[1] + 26])
     window.until(lambda: bent.MaximumDisplacement > 0, f"the drag bends {kind}")
