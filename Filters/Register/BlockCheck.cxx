@@ -60,9 +60,10 @@ bool isWithin(const glm::ivec3& at, const glm::ivec3& sides)
   return glm::all(glm::greaterThanEqual(at, glm::ivec3(0))) && glm::all(glm::lessThan(at, sides));
 }
 
-std::size_t numberOf(const glm::ivec3& at, const glm::ivec3& sides)
+// The number of a point, x fastest; of a shift, by how much it changes numbers.
+std::ptrdiff_t stepsTo(const glm::ivec3& at, const glm::ivec3& sides)
 {
-  return (static_cast<std::size_t>(at.z) * sides.y + at.y) * sides.x + at.x;
+  return (static_cast<std::ptrdiff_t>(at.z) * sides.y + at.y) * sides.x + at.x;
 }
 
 glm::ivec3 indexOf(std::size_t number, const glm::ivec3& sides)
@@ -125,18 +126,32 @@ void BlockCheck::read()
     this->By.support);
 }
 
+// Every second point along each axis is asked how it moves, and those between are means: over 4 mm
+// a bend is nearly a line.
 void BlockCheck::findPlaces()
 {
   const Grid& grid = this->Rest.grid;
   const glm::ivec3 last = grid.dimensions - 1;
+  const glm::ivec3 asked = grid.dimensions / 2 + 1;
+  std::vector<glm::vec3> motions(static_cast<std::size_t>(asked.x) * asked.y * asked.z);
+  parallelFor(0, asked.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    forEachIndex({ 0, 0, begin }, { asked.x - 1, asked.y - 1, end - 1 }, [&](const auto& at) {
+      const glm::dvec3 rest = grid.worldFromGrid(2 * at);
+      motions[stepsTo(at, asked)] = displacementOfTissue(this->Result, rest);
+    });
+  });
   this->Places.resize(grid.count());
   parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
     forEachIndex({ 0, 0, begin }, { last.x, last.y, end - 1 }, [&](const glm::ivec3& at) {
       const std::size_t number = grid.offset(at.x, at.y, at.z);
       if (isTaken(at) && this->RestWeights.values[number] > 0.0f)
       {
-        const glm::dvec3 rest = grid.worldFromGrid(at);
-        const glm::dvec3 now = rest + displacementOfTissue(this->Result, rest);
+        glm::vec3 motion(0.0f);
+        forEachIndex(at / 2, (at + 1) / 2,
+          [&](const glm::ivec3& near) { motion += motions[stepsTo(near, asked)]; });
+        const glm::ivec3 odd = at % 2;
+        motion /= (1 + odd.x) * (1 + odd.y) * (1 + odd.z);
+        const glm::dvec3 now = grid.worldFromGrid(at) + glm::dvec3(motion);
         this->Places[number] = glm::ivec3(glm::round(grid.gridFromWorld(now)));
       }
     });
@@ -153,10 +168,12 @@ void BlockCheck::layBlocks()
   });
 }
 
-std::vector<BlockCheck::Tissue> BlockCheck::tissueOf(const Block& block) const
+BlockCheck::Tissue BlockCheck::tissueOf(const Block& block) const
 {
   const Grid& grid = this->Rest.grid;
-  std::vector<Tissue> tissue;
+  Tissue tissue{ {}, glm::ivec3(std::numeric_limits<int>::max()),
+    glm::ivec3(std::numeric_limits<int>::lowest()) };
+  tissue.points.reserve(BlockPoints * BlockPoints * BlockPoints);
   int points = 0;
   forEachIndex(block.first, block.first + BlockPoints - 1, [&](const glm::ivec3& at) {
     if (isTaken(at))
@@ -165,34 +182,40 @@ std::vector<BlockCheck::Tissue> BlockCheck::tissueOf(const Block& block) const
       const std::size_t number = grid.offset(at.x, at.y, at.z);
       if (this->RestWeights.values[number] > 0.0f)
       {
-        tissue.push_back({ &this->RestNumbers[number * this->By.numbers], this->Places[number] });
+        const glm::ivec3& place = this->Places[number];
+        tissue.points.push_back({ &this->RestNumbers[number * this->By.numbers], place,
+          stepsTo(place, grid.dimensions) });
+        tissue.low = glm::min(tissue.low, place);
+        tissue.high = glm::max(tissue.high, place);
       }
     }
   });
-  if (static_cast<double>(tissue.size()) < LeastTissue * points)
+  if (static_cast<double>(tissue.points.size()) < LeastTissue * points)
   {
-    tissue.clear();
+    tissue.points.clear();
   }
   return tissue;
 }
 
 // The mean over the tissue; absent if too little of it has a partner, or if it is above `most`.
 std::optional<float> BlockCheck::costAt(
-  const std::vector<Tissue>& tissue, const glm::ivec3& shift, float most) const
+  const Tissue& tissue, const glm::ivec3& shift, float most) const
 {
-  const Grid& grid = this->Rest.grid;
-  const float points = static_cast<float>(tissue.size());
+  const glm::ivec3& sides = this->Rest.grid.dimensions;
+  const bool areWithin =
+    isWithin(tissue.low + shift, sides) && isWithin(tissue.high + shift, sides);
+  const std::ptrdiff_t steps = stepsTo(shift, sides);
+  const float points = static_cast<float>(tissue.points.size());
   const float limit = most * points;
   float sum = 0.0f;
   std::size_t compared = 0;
-  for (const Tissue& point : tissue)
+  for (const TissuePoint& point : tissue.points)
   {
-    const glm::ivec3 to = point.place + shift;
-    if (!isWithin(to, grid.dimensions))
+    if (!areWithin && !isWithin(point.place + shift, sides))
     {
       continue;
     }
-    const std::size_t partner = grid.offset(to.x, to.y, to.z);
+    const std::size_t partner = static_cast<std::size_t>(point.at + steps);
     if (this->ReferenceWeights.values[partner] > 0.0f)
     {
       ++compared;
@@ -215,8 +238,9 @@ std::optional<float> BlockCheck::costAt(
 // How badly a block matches where it is.
 void BlockCheck::compare(Block& block) const
 {
-  const std::vector<Tissue> tissue = this->tissueOf(block);
-  std::optional<float> here = tissue.empty() ? std::nullopt : this->costAt(tissue, glm::ivec3(0));
+  const Tissue tissue = this->tissueOf(block);
+  std::optional<float> here =
+    tissue.points.empty() ? std::nullopt : this->costAt(tissue, glm::ivec3(0));
   if (!here)
   {
     return;
@@ -242,7 +266,7 @@ void BlockCheck::search(Block& block) const
   {
     return;
   }
-  const std::vector<Tissue> tissue = this->tissueOf(block);
+  const Tissue tissue = this->tissueOf(block);
   float least = MostThere * block.here;
   forEachIndex(
     glm::ivec3(-FarthestPoints), glm::ivec3(FarthestPoints), [&](const glm::ivec3& shift) {
@@ -302,7 +326,7 @@ std::vector<std::size_t> BlockCheck::connectedTo(std::size_t first, std::vector<
     {
       glm::ivec3 beside = at;
       beside[side / 2] += side % 2 ? 1 : -1;
-      const std::size_t number = numberOf(beside, this->Sides);
+      const auto number = static_cast<std::size_t>(stepsTo(beside, this->Sides));
       if (isWithin(beside, this->Sides) && !isSeen[number] && this->Blocks[number].isCandidate &&
         glm::distance(glm::dvec3(this->Blocks[number].shift), shift) < Agreeing)
       {

@@ -64,18 +64,26 @@ private:
     bool isCounted = false;   // others beside it do so, too
   };
 
-  // A point of a block.
-  struct Tissue
+  struct TissuePoint
   {
     const float* numbers; // of the volume
     glm::ivec3 place;     // in the result, point of the grid
+    std::ptrdiff_t at;    // the same, counted from the grid's first point
+  };
+
+  // The points of a block that are compared.
+  struct Tissue
+  {
+    std::vector<TissuePoint> points;
+    glm::ivec3 low; // of their places
+    glm::ivec3 high;
   };
 
   void read();
   void findPlaces();
   void layBlocks();
-  std::vector<Tissue> tissueOf(const Block& block) const;
-  std::optional<float> costAt(const std::vector<Tissue>& tissue, const glm::ivec3& shift,
+  Tissue tissueOf(const Block& block) const;
+  std::optional<float> costAt(const Tissue& tissue, const glm::ivec3& shift,
     float most = std::numeric_limits<float>::max()) const;
   void compare(Block& block) const;
   void findLeastPart();
