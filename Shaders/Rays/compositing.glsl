@@ -130,11 +130,14 @@ Seen nothingYet()
   return Seen(vec4(0.0), -1.0, -2.0, 0.0, false);
 }
 
-// Adds a sample's colour times opacity, and opacity. `surface`: the number of the sample at which a
-// surface lies if this one makes the ray reach HitOpacity.
-void see(inout Seen seen, vec4 added, float surface)
+// Adds a sample's colour times opacity, and opacity.
+void see(inout Seen seen, vec4 added)
 {
   seen.picture += seen.picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - seen.picture.a) * added;
-  bool hit = seen.hit < 0.0 && seen.picture.a >= HitOpacity;
-  seen.hit = hit ? max(surface, 0.0) : seen.hit;
+}
+
+// Whether the last samples made the ray reach HitOpacity. Once a ray: where is found in a branch.
+bool hasReached(Seen seen)
+{
+  return seen.hit < 0.0 && seen.picture.a >= HitOpacity;
 }

@@ -98,7 +98,15 @@ void seeTwo(
   float further = (1.0 - first.a) * second.a;
   float way = further / (first.a + further) - 0.5;
   Shine shine = shineBetween(path, pair, slopes, turn, way);
-  // As if everything from the surface on were opaque: opacities are then parts of a step behind it.
-  see(seen, litTissue(first, pair.oneRest, shine), i - seen.picture.a - first.a);
-  see(seen, litTissue(second, pair.twoRest, shine), i + 1.0 - seen.picture.a - second.a);
+  float before = seen.picture.a;
+  see(seen, litTissue(first, pair.oneRest, shine));
+  float between = seen.picture.a;
+  see(seen, litTissue(second, pair.twoRest, shine));
+  if (hasReached(seen))
+  {
+    // As if all from the surface on were opaque: opacities are then parts of a step behind it.
+    float surface =
+      between >= HitOpacity ? i - before - first.a : i + 1.0 - between - second.a;
+    seen.hit = max(surface, 0.0);
+  }
 }

@@ -42,6 +42,14 @@ void seeTwo(Path path, Pair pair, mat3 slopes, mat3 turn, float i, vec4 one, vec
   Shine twoShine =
     shineOf(pair.twoDeformed, gradientOfTwo(pair), slopes, turn, path.towardsEye);
 #endif
-  see(seen, litTissue(one, pair.oneRest, oneShine), i - 0.5 + surfaceWithin(seen.picture.a, one.a));
-  see(seen, litTissue(two, pair.twoRest, twoShine), i + 0.5 + surfaceWithin(seen.picture.a, two.a));
+  float before = seen.picture.a;
+  see(seen, litTissue(one, pair.oneRest, oneShine));
+  float between = seen.picture.a;
+  see(seen, litTissue(two, pair.twoRest, twoShine));
+  if (hasReached(seen))
+  {
+    float surface = between >= HitOpacity ? i - 0.5 + surfaceWithin(before, one.a)
+                                          : i + 0.5 + surfaceWithin(between, two.a);
+    seen.hit = max(surface, 0.0);
+  }
 }
