@@ -3,7 +3,9 @@
 
 #include "Filters/Register/RefinementSteps.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -240,8 +242,9 @@ void ResultCheck::finishRival()
     this->Cost = cost;
     return;
   }
-  const std::optional<double> mm =
-    this->motionMm(this->State->controls, this->State->startControls);
+  const Controls& from = this->State->startControls;
+  const Controls& found = this->State->controls;
+  const std::optional<double> mm = this->motionMm(found, from);
   if (!(this->Cost > 0.0)) // also rejects NaN
   {
     return;
@@ -251,6 +254,9 @@ void ResultCheck::finishRival()
   {
     this->Figures.rivalGain = gain;
     this->Figures.rivalMm = *mm;
+    this->Figures.rivalMotion.resize(found.size());
+    std::transform(
+      found.begin(), found.end(), from.begin(), this->Figures.rivalMotion.begin(), std::minus<>());
   }
 }
 

@@ -32,7 +32,8 @@ struct CheckFigures
   std::optional<double> otherMm; ///< mean distance (mm) by which the other metric moves the result
   /** Fraction by which the best other place costs more; absent if a search found none. */
   std::optional<double> rivalGain{};
-  double rivalMm = 0.0; ///< mean distance of that place
+  double rivalMm = 0.0;   ///< mean distance of that place
+  Controls rivalMotion{}; ///< of each control point, from the result to that place
 };
 
 class BRAINSHIFT_DEFORMATION_EXPORT ResultCheck

@@ -147,6 +147,12 @@ std::string broughtReason(const Elsewhere& blocks)
     "makes it more exact.";
 }
 
+std::string movedReason(double mm)
+{
+  return "The refinement had ended " + inMm(mm) +
+    " away on average from a place that matches better, and went on from there.";
+}
+
 Verification::Verification(RegisteredPair pair, const Lattice& start, const Lattice& result,
   const RefinementPlan& plan, std::unique_ptr<PyramidLevel> level)
   : Check(std::move(pair), result, plan, std::move(level))

@@ -62,6 +62,14 @@ BRAINSHIFT_DEFORMATION_EXPORT std::string elsewhereReason(const Elsewhere& block
 /** Which blocks did, before the refinement went on from where they belong: a sentence. */
 BRAINSHIFT_DEFORMATION_EXPORT std::string broughtReason(const Elsewhere& blocks);
 
+/**
+ * Why a result fails that a check found a fault of: a sentence. The result before it had another
+ * fault, a place that matches better.
+ *
+ * @param mm   mean distance of that place, from which the refinement went on
+ */
+BRAINSHIFT_DEFORMATION_EXPORT std::string movedReason(double mm);
+
 /** All checks of a result, a part of them for each call. */
 class BRAINSHIFT_DEFORMATION_EXPORT Verification
 {

@@ -21,6 +21,7 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 using namespace brainshift;
@@ -40,19 +41,24 @@ struct vtkRegistrationRun::Running
   Lattice Bent;        // the deformation of an alignment
   std::unique_ptr<Verification> Checks;
 
-  // The best result so far, while the refinement goes on from it because parts belong elsewhere.
+  // The best result so far, while the refinement goes on because parts, or all, belong elsewhere.
   Lattice From; // where a refinement begins
   RefinementSettings Settings;
   std::unique_ptr<Refinement> Best;
   std::unique_ptr<Verification> BestChecks;
   int Rounds = 0;
-  int OtherSteps = 0; // of the rounds that Elastic did not make
-  Elsewhere AtFirst;  // of the first result
-  Elsewhere Brought;  // the same, if a later result is kept
+  int OtherSteps = 0;    // of the rounds that Elastic did not make
+  Elsewhere AtFirst;     // of the first result
+  Elsewhere Brought;     // the same, if a later result is kept
+  double NearbyMm = 0.0; // from the first result to a place that matches better; 0: there is none
+  double MovedMm = 0.0;  // the same, if a later result is kept
 
   void BeginRigid(RegisteredSource source, const RegisteredGrids& grids, int starts);
   void BeginChecks();
   void FinishChecks();
+  void FinishBlocks();
+  void FinishNearby();
+  void GoOn(const Controls& motion);
   void KeepBest();
   bool IsFinished() const;
   double Done() const;
@@ -68,6 +74,11 @@ constexpr double FarthestShiftMm = 24.0;
 constexpr double FarthestDegrees = 17.0;
 
 constexpr int MostRounds = 2; // that go on from where parts belong
+
+// The refinement goes on from another place if the gain over it, a fraction, is less. The search
+// takes an eighth of the samples: by chance it found places beside right results that cost 1.2 %
+// less.
+constexpr double BetterPlace = -0.04;
 
 // The progress at the end of each round. Few refinements go on; the others end early.
 constexpr std::array<double, MostRounds + 1> RoundEnds{ 0.8, 0.92, 1.0 };
@@ -142,14 +153,26 @@ void vtkRegistrationRun::Running::BeginChecks()
     std::make_unique<Verification>(std::move(this->Pair), this->Bent, this->Bent, this->Plan);
 }
 
-// Parts of the volume that belong elsewhere are brought there, and the refinement goes on from it.
-// The result of which the least belongs elsewhere is kept.
 void vtkRegistrationRun::Running::FinishChecks()
 {
   if (!this->Elastic || this->Rounds > MostRounds)
   {
     return;
   }
+  if (this->Plan.check.rivalGain > 0.0)
+  {
+    this->FinishNearby();
+  }
+  else
+  {
+    this->FinishBlocks();
+  }
+}
+
+// Parts of the volume that belong elsewhere are brought there, and the refinement goes on from it.
+// The result of which the least belongs elsewhere is kept.
+void vtkRegistrationRun::Running::FinishBlocks()
+{
   const Elsewhere found = this->Checks->elsewhere();
   if (this->Best && found.ml >= this->BestChecks->elsewhere().ml)
   {
@@ -167,13 +190,46 @@ void vtkRegistrationRun::Running::FinishChecks()
   ++this->Rounds;
   if (found.ml > 0.0 && this->Rounds <= MostRounds)
   {
-    this->OtherSteps += this->Elastic->progress().steps;
-    this->Best = std::move(this->Elastic);
-    this->BestChecks = std::move(this->Checks);
-    this->Elastic =
-      std::make_unique<Refinement>(this->BestChecks->takePair(), this->From, this->Settings);
-    this->Elastic->beginAt(this->Best->lattice(), this->BestChecks->motionOfBlocks());
+    this->GoOn(this->Checks->motionOfBlocks());
   }
+}
+
+// The refinement goes on from a place nearby that matches clearly better. The result that stands
+// out more from other places is kept.
+void vtkRegistrationRun::Running::FinishNearby()
+{
+  const auto gainOf = [](const Verification& checks) {
+    return checks.figures().rivalGain.value_or(std::numeric_limits<double>::max());
+  };
+  const double gain = gainOf(*this->Checks);
+  if (this->Best && !(gain > gainOf(*this->BestChecks)))
+  {
+    this->KeepBest();
+    return;
+  }
+  if (this->Rounds > 0)
+  {
+    this->MovedMm = this->NearbyMm;
+  }
+  else
+  {
+    this->NearbyMm = gain < BetterPlace ? this->Checks->figures().rivalMm : 0.0;
+  }
+  ++this->Rounds;
+  if (gain < BetterPlace && this->Rounds <= MostRounds)
+  {
+    this->GoOn(Controls(this->Checks->figures().rivalMotion));
+  }
+}
+
+void vtkRegistrationRun::Running::GoOn(const Controls& motion)
+{
+  this->OtherSteps += this->Elastic->progress().steps;
+  this->Best = std::move(this->Elastic);
+  this->BestChecks = std::move(this->Checks);
+  this->Elastic =
+    std::make_unique<Refinement>(this->BestChecks->takePair(), this->From, this->Settings);
+  this->Elastic->beginAt(this->Best->lattice(), motion);
 }
 
 // The present round found nothing better, or is stopped.
@@ -196,7 +252,8 @@ double vtkRegistrationRun::Running::Done() const
   const double done = this->Rigid ? this->Rigid->progress().done : this->Elastic->progress().done;
   const double part = RegistrationPart * done +
     (1.0 - RegistrationPart) * (this->Checks ? this->Checks->done() : 0.0);
-  if (this->Rigid || !this->Plan.check.blocks.make || this->Rounds > MostRounds)
+  const bool mayGoOn = this->Plan.check.blocks.make || this->Plan.check.rivalGain > 0.0;
+  if (this->Rigid || !mayGoOn || this->Rounds > MostRounds)
   {
     return part;
   }
@@ -425,6 +482,10 @@ void vtkRegistrationRun::ReportChecks()
   if (this->Internal->Brought.ml > 0.0 && verdict.trust != brainshift::Trust::Unchecked)
   {
     verdict.lower(brainshift::Trust::Doubtful, broughtReason(this->Internal->Brought));
+  }
+  if (this->Internal->MovedMm > 0.0 && verdict.trust == brainshift::Trust::Doubtful)
+  {
+    verdict.lower(brainshift::Trust::Failed, movedReason(this->Internal->MovedMm));
   }
   std::string reasons;
   for (const std::string& reason : verdict.reasons)

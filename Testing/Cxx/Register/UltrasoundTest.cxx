@@ -187,6 +187,32 @@ TEST(Ultrasound, SeveralStartsFindWhatOneMisses)
   EXPECT_LT(several, 0.3);
 }
 
+TEST(Ultrasound, ARefinementGoesOnFromABetterPlaceNearby)
+{
+  const Lattice start = displacedBy({ 5.0, 5.0, 0.0 });
+  const RefinementSettings settings = byUltrasound();
+  Refinement refinement(speckledPair(7), start, settings);
+  while (!refinement.progress().isFinished)
+  {
+    refinement.step();
+  }
+  const double missed = error(refinement.lattice());
+  ASSERT_GT(missed, 2.0) << "else the test proves nothing";
+  ResultCheck check(refinement.takePair(), refinement.lattice(), settings.plan);
+  while (check.step())
+  {
+  }
+  ASSERT_LT(check.figures().rivalGain.value_or(1.0), 0.0);
+  Refinement second(check.takePair(), start, settings);
+  second.beginAt(refinement.lattice(), check.figures().rivalMotion);
+  EXPECT_LT(error(second.lattice()), 1.0) << "the place itself, before a step";
+  while (!second.progress().isFinished)
+  {
+    second.step();
+  }
+  EXPECT_LT(error(second.lattice()), 0.3);
+}
+
 // A caller may stop at any step: what it gets is never worse than the start, and its cost is its
 // own.
 TEST(Ultrasound, SeveralStartsKeepTheBestAtEachStep)
