@@ -91,13 +91,15 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
   if (figures.rivalGain && *figures.rivalGain < DoubtfulGain * limits.rivalGain)
   {
     const bool isSecond = verdict.trust == Trust::Doubtful; // of two checks that found a fault
+    const bool isBetter = *figures.rivalGain < 0.0;
     verdict.lower(
       isSecond || *figures.rivalGain < limits.rivalGain ? Trust::Failed : Trust::Doubtful,
       "A search from places nearby ends " + inMm(figures.rivalMm) +
-        " away on average, where the volumes match " +
-        (*figures.rivalGain < 0.0 ? "better." : "nearly as well.") +
-        " Right results match clearly better than any other place. Start nearer to the right "
-        "place, or from several places.");
+        " away on average, where the volumes match " + (isBetter ? "better" : "nearly as well") +
+        ": the cost is " + roundedText(100.0 * std::abs(*figures.rivalGain)) + " percent " +
+        (isBetter ? "less" : "more") + "; of right results it is at least " +
+        roundedText(100.0 * DoubtfulGain * limits.rivalGain) +
+        " percent more. Start nearer to the right place, or from several places.");
   }
   return verdict;
 }

@@ -283,9 +283,10 @@ TEST(Trust, APlaceNearbyThatMatchesAsWellFailsOrMakesItDoubtful)
   figures.rivalGain = 0.009;
   EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Failed);
   EXPECT_TRUE(says(verdictOf(figures, limits), "6 mm away on average"));
-  EXPECT_TRUE(says(verdictOf(figures, limits), "nearly as well"));
+  EXPECT_TRUE(says(verdictOf(figures, limits), "nearly as well: the cost is 0.9 percent more"));
+  EXPECT_TRUE(says(verdictOf(figures, limits), "at least 6 percent more"));
   figures.rivalGain = -0.02;
-  EXPECT_TRUE(says(verdictOf(figures, limits), "match better"));
+  EXPECT_TRUE(says(verdictOf(figures, limits), "match better: the cost is 2 percent less"));
 }
 
 TEST(Trust, AMatchInsideThatIsWorseThanBesideIsNotCalledLess)
