@@ -503,11 +503,14 @@ brainshift::Box vtkWholeVolumeRepresentation::ShareWork(
   const Group& group, const brainshift::Box& bounds, bool drawsParts, std::string& problem)
 {
   vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  vtkWholeVolumeRepresentation* first = group.front();
+  // Parts that are kept need no counts.
+  const bool counted = drawsParts && (!first->KeepsBoxes || first->RankBoxes.empty());
   brainshift::TissueCounts counts;
   counts.box = bounds;
   for (vtkWholeVolumeRepresentation* volume : group)
   {
-    if (drawsParts && problem.empty())
+    if (counted && problem.empty())
     {
       problem = brainshift::sentenceThrownBy(
         "its part of the volume", [&] { volume->CountVisible(volume->Part, counts); });
@@ -515,7 +518,6 @@ brainshift::Box vtkWholeVolumeRepresentation::ShareWork(
   }
   const std::vector<long long> own = counts.cells;
   ranks->AllReduce(own.data(), counts.cells.data(), own.size(), vtkCommunicator::SUM_OP);
-  vtkWholeVolumeRepresentation* first = group.front();
   const std::vector<brainshift::Box> parts = brainshift::balancedParts(
     first->RankBoxes, first->AllBoxes, ranks->GetNumberOfProcesses(), counts, first->KeepsBoxes);
   for (vtkWholeVolumeRepresentation* volume : group)
