@@ -306,8 +306,8 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
 
     It starts from the present deformation, a fit and strokes, and changes it as little as the
     volumes require. The result replaces both; later strokes follow it. The result is wrong where
-    tissue slides, as along the falx, or was removed without a cavity. If its checks find a part of
-    the volume that belongs elsewhere, it goes on from there, and `warnings` say so.
+    tissue slides, as along the falx, or was removed without a cavity. If checks find a part of the
+    volume that belongs elsewhere, or by ultrasound a better place nearby, it goes on from there.
 
     - `filter`: a Free-Form Deformation. Its `Lattice` becomes the result, and its `Strokes` become
       empty.
