@@ -317,10 +317,10 @@ void Alignment::moveReference(const glm::dmat3& matrix, const glm::dvec3& shift)
 }
 
 // A search that began at a random position may still be far from the best result.
-const Alignment::Parameters& Alignment::bestKnown() const
+const Alignment::Match& Alignment::bestKnown() const
 {
   const bool isBehind = this->Progress.level == 0 && this->Start > 0 &&
-    (!this->IsPrepared || this->BestStartLoss <= this->Loss);
+    (!this->IsPrepared || this->BestStart.loss <= this->Best.loss);
   return isBehind ? this->BestStart : this->Best;
 }
 
@@ -330,7 +330,7 @@ RigidPose Alignment::motionOf(const Parameters& at) const
   return turnedAround(this->Middle, rotationFrom(rotation), { at[0], at[1], at[2] });
 }
 
-double Alignment::loss(const Parameters& at, double* overlap) const
+Alignment::Match Alignment::matched(const Parameters& at) const
 {
   const Volume& reference = this->References[this->Progress.level];
   const std::vector<Sample>& samples = this->Samples[this->Progress.level];
@@ -369,12 +369,8 @@ double Alignment::loss(const Parameters& at, double* overlap) const
     parts[0].add(parts[piece]);
     all += within[piece];
   }
-  const double found = all / std::max(1.0, static_cast<double>(samples.size()));
-  if (overlap)
-  {
-    *overlap = found;
-  }
-  return found < LeastOverlap ? 0.0 : -parts[0].information();
+  const double overlap = all / std::max(1.0, static_cast<double>(samples.size()));
+  return { at, overlap < LeastOverlap ? 0.0 : -parts[0].information(), overlap };
 }
 
 void Alignment::prepareLevel()
@@ -387,16 +383,14 @@ void Alignment::prepareLevel()
   this->Line = 0;
   this->Rounds = 0;
   this->BestGain = 0.0;
-  this->Loss = this->loss(this->Best);
-  const double start = this->loss({});
-  if (this->Progress.level > 0 && start < this->Loss) // the coarser level went astray
+  this->Best = this->matched(this->Best.at);
+  const Match start = this->matched({});
+  if (this->Progress.level > 0 && start.loss < this->Best.loss) // the coarser level went astray
   {
-    this->Best = {};
-    this->Loss = start;
+    this->Best = start;
   }
   this->RoundStart = this->Best;
-  this->RoundStartLoss = this->Loss;
-  this->Progress.informationAtStart = -start;
+  this->Progress.informationAtStart = -start.loss;
   this->IsPrepared = true;
 }
 
@@ -410,35 +404,37 @@ int Alignment::mostRoundsHere() const
 double Alignment::searchLine(const Parameters& direction)
 {
   const double spacingMm = this->Settings.levelsMm[this->Progress.level];
-  const auto moved = [&](double by) {
-    Parameters at = this->Best;
+  const Match from = this->Best;
+  const auto lossAt = [&](double by) {
+    Parameters at = from.at;
     for (std::size_t i = 0; i < at.size(); ++i)
     {
       at[i] += by * direction[i];
     }
-    return at;
+    const Match found = this->matched(at);
+    if (found.loss < this->Best.loss)
+    {
+      this->Best = found;
+    }
+    return found.loss;
   };
   const double stride = this->Rounds == 0 ? spacingMm : 0.25 * spacingMm;
-  const LinePoint found = lowestAlong([&](double by) { return this->loss(moved(by)); }, this->Loss,
-    stride, this->Settings.tolerance * spacingMm);
-  const double gain = this->Loss - found.value;
-  this->Best = moved(found.at);
-  this->Loss = found.value;
-  return gain;
+  lowestAlong(lossAt, from.loss, stride, this->Settings.tolerance * spacingMm);
+  return from.loss - this->Best.loss;
 }
 
 // Powell (1964): the displacement of the whole round replaces the direction that gained most. His
 // test of the extrapolated point is left out.
 void Alignment::endRound()
 {
-  const double gain = this->RoundStartLoss - this->Loss;
+  const double gain = this->RoundStart.loss - this->Best.loss;
   const bool isDone =
-    gain <= LeastGain * std::abs(this->Loss) || ++this->Rounds >= this->mostRoundsHere();
+    gain <= LeastGain * std::abs(this->Best.loss) || ++this->Rounds >= this->mostRoundsHere();
   Parameters displacement{};
   double length = 0.0;
   for (std::size_t i = 0; i < displacement.size(); ++i)
   {
-    displacement[i] = this->Best[i] - this->RoundStart[i];
+    displacement[i] = this->Best.at[i] - this->RoundStart.at[i];
     length += displacement[i] * displacement[i];
   }
   if (!isDone && length > 0.0)
@@ -454,7 +450,6 @@ void Alignment::endRound()
   this->Line = 0;
   this->BestGain = 0.0;
   this->RoundStart = this->Best;
-  this->RoundStartLoss = this->Loss;
   this->report();
   if (isDone)
   {
@@ -465,22 +460,20 @@ void Alignment::endRound()
 // On the coarsest level. False: there is none left, and the best result of all goes on.
 bool Alignment::takeNextStart()
 {
-  if (this->Start == 0 || this->Loss < this->BestStartLoss)
+  if (this->Start == 0 || this->Best.loss < this->BestStart.loss)
   {
     this->BestStart = this->Best;
-    this->BestStartLoss = this->Loss;
   }
   if (++this->Start >= std::min(this->Settings.starts, MostStarts))
   {
     this->Best = this->BestStart;
-    this->Loss = this->BestStartLoss;
     return false;
   }
   const StartMotion motion = startMotion(this->Start, FarthestStartMm, FarthestStartDegrees);
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Best[axis] = motion.shift[axis];
-    this->Best[3 + axis] = motion.rotation[axis] * this->RadiusMm;
+    this->Best.at[axis] = motion.shift[axis];
+    this->Best.at[3 + axis] = motion.rotation[axis] * this->RadiusMm;
   }
   this->IsPrepared = false;
   return true;
@@ -534,7 +527,9 @@ const AlignmentProgress& Alignment::step()
 
 void Alignment::report()
 {
-  this->Progress.information = -this->loss(this->bestKnown(), &this->Progress.overlap);
+  const Match& best = this->bestKnown();
+  this->Progress.information = -best.loss;
+  this->Progress.overlap = best.overlap;
 }
 
 void Alignment::reportDone()
@@ -551,13 +546,13 @@ void Alignment::reportDone()
 
 double Alignment::shiftMm() const
 {
-  const Parameters& at = this->bestKnown();
+  const Parameters& at = this->bestKnown().at;
   return std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
 }
 
 double Alignment::rotationDegrees() const
 {
-  const Parameters& at = this->bestKnown();
+  const Parameters& at = this->bestKnown().at;
   return glm::degrees(std::sqrt(at[3] * at[3] + at[4] * at[4] + at[5] * at[5]) / this->RadiusMm);
 }
 

@@ -109,7 +109,7 @@ public:
   void moveReference(const glm::dmat3& matrix, const glm::dvec3& shift);
 
   /** Mutual information (nats) where the reference is now, on the present level. */
-  double information() const { return -this->loss(this->bestKnown()); }
+  double information() const { return -this->matched(this->bestKnown().at).loss; }
 
   /** Searches one line. Nothing once it is finished. */
   const AlignmentProgress& step();
@@ -120,7 +120,7 @@ public:
    * The motion of the reference from its start: mm, world axes. While the coarsest level searches
    * from several positions, that of the best result so far.
    */
-  RigidPose motion() const { return this->motionOf(this->bestKnown()); }
+  RigidPose motion() const { return this->motionOf(this->bestKnown().at); }
 
   /** Distance (mm) by which the motion moves the middle of the samples. */
   double shiftMm() const;
@@ -141,11 +141,19 @@ private:
     float value = 0;     // 0 to 1
   };
 
+  // A position, and how well the reference matches there on the present level.
+  struct Match
+  {
+    Parameters at{};
+    double loss = 0.0;    // mutual information, negative; 0: the overlap is too small
+    double overlap = 0.0; // AlignmentProgress::overlap
+  };
+
   void prepareLevel();
   int mostRoundsHere() const;
-  const Parameters& bestKnown() const;
+  const Match& bestKnown() const;
   RigidPose motionOf(const Parameters& at) const;
-  double loss(const Parameters& at, double* overlap = nullptr) const;
+  Match matched(const Parameters& at) const;
   double searchLine(const Parameters& direction);
   void endRound();
   void finishLevel();
@@ -162,13 +170,10 @@ private:
 
   bool IsPrepared = false;
   std::array<Parameters, 6> Directions{};
-  Parameters Best{};      // of the present search
-  int Start = 0;          // of the coarsest level
-  Parameters BestStart{}; // the result with the least loss of the starts so far
-  double BestStartLoss = 0.0;
-  Parameters RoundStart{};
-  double Loss = 0.0;
-  double RoundStartLoss = 0.0;
+  Match Best;      // of the present search
+  int Start = 0;   // of the coarsest level
+  Match BestStart; // the result with the least loss of the starts so far
+  Match RoundStart;
   int Line = 0;
   int BestLine = 0;
   double BestGain = 0.0;

@@ -15,12 +15,14 @@ constexpr double CoarseMm = 8.0;
 constexpr double FineMm = 4.0;
 constexpr std::size_t CoarseSamples = 4000;
 constexpr std::size_t FineSamples = 20000;
-constexpr double Tolerance = 0.1;    // of a search, as a fraction of the spacing
-constexpr int AsItIs = 2;            // candidates: before the registration, and after it
-constexpr int Finals = 3;            // beside the reference as it is
-constexpr double Alike = 0.9;        // of the information on the coarse level
-constexpr std::size_t Searched = 12; // of the 48 orientations
-constexpr float Air = 0.1f;          // fraction of the range of values
+constexpr double Tolerance = 0.1;     // of a search, as a fraction of the spacing
+constexpr int AsItIs = 2;             // candidates: before the registration, and after it
+constexpr int Finals = 3;             // beside the reference as it is
+constexpr double Alike = 0.9;         // of the information on the coarse level
+constexpr std::size_t Searched = 12;  // of the 48 orientations
+constexpr float Air = 0.1f;           // fraction of the range of values
+constexpr double SameMm = 4.0;        // searches that end nearer to each other found one place
+constexpr double SameRotation = 0.05; // the same, rad
 
 // A mask with voxels of a coarse grid.
 Mask coarseMask(const Mask& mask)
@@ -62,6 +64,14 @@ glm::dvec3 tissueMiddle(const Volume& volume)
 bool hasMore(const Orientation& a, const Orientation& b)
 {
   return a.information > b.information;
+}
+
+// Whether two searches ended in one place; `middle` is that of the reference (mm, world).
+bool areSame(const Orientation& a, const Orientation& b, const glm::dvec3& middle)
+{
+  const glm::dvec3 apart = a.placement * middle + a.shift - (b.placement * middle + b.shift);
+  return a.matrix == b.matrix && glm::length(apart) < SameMm &&
+    glm::length(vectorFrom(a.placement * glm::transpose(b.placement))) < SameRotation;
 }
 
 AlignmentSettings settingsOf(std::vector<double> levelsMm, std::size_t samples, int rounds)
@@ -126,7 +136,6 @@ void OrientationSearch::read()
   this->Pair.referenceUnknown = coarseMask(this->Whole.referenceUnknown);
   this->ReferenceMiddle = tissueMiddle(this->Pair.reference);
   this->Coarse = this->levelOf(settingsOf({ CoarseMm }, CoarseSamples, 2));
-  this->Fine = this->levelOf(settingsOf({ FineMm }, FineSamples, 3));
 }
 
 Alignment OrientationSearch::placed(const Orientation& one, const Level& level)
@@ -175,18 +184,28 @@ void OrientationSearch::choose()
 {
   this->Candidates.erase(
     this->Candidates.begin() + (hasMore(this->Candidates[0], this->Candidates[1]) ? 1 : 0));
+  const auto isAsItIs = [&](const Orientation& one) {
+    return areSame(one, this->Candidates.front(), this->ReferenceMiddle);
+  };
+  this->Candidates.erase(
+    std::remove_if(this->Candidates.begin() + 1, this->Candidates.end(), isAsItIs),
+    this->Candidates.end());
   std::sort(this->Candidates.begin() + 1, this->Candidates.end(), hasMore);
   const double least = Alike * this->Candidates.front().information;
   const auto isOpen = [&](const Orientation& one) { return one.information >= least; };
   const auto open =
     std::count_if(this->Candidates.begin() + 1, this->Candidates.begin() + 1 + Finals, isOpen);
   this->Refined = open > 0 ? 0 : 2; // none need be compared on the finer level
+  if (open > 0)
+  {
+    this->Fine = this->levelOf(settingsOf({ FineMm }, FineSamples, 3));
+  }
   this->Candidates.resize(2 + std::max<std::ptrdiff_t>(0, open - 1));
 }
 
 bool OrientationSearch::step()
 {
-  if (!this->Fine.front())
+  if (!this->Coarse.front())
   {
     this->read();
     return true;

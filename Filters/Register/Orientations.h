@@ -67,11 +67,11 @@ private:
   const RegisteredPair& Whole;
   const Lattice& Start;
   const Lattice& Result;
-  RegisteredPair Pair;               // with few voxels
-  glm::dvec3 RestMiddle{ 0.0 };      // of the tissue, mm, world
-  glm::dvec3 ReferenceMiddle{ 0.0 }; // the same of the reference
-  Level Coarse;                      // as they begin, with the reference as it is
-  Level Fine;
+  RegisteredPair Pair;                 // with few voxels
+  glm::dvec3 RestMiddle{ 0.0 };        // of the tissue, mm, world
+  glm::dvec3 ReferenceMiddle{ 0.0 };   // the same of the reference
+  Level Coarse;                        // as they begin, with the reference as it is
+  Level Fine;                          // the same, absent where nothing is compared on it
   std::vector<Orientation> Candidates; // the first one is the reference as it is
   std::size_t Tried = 0;
   std::size_t Refined = 0;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -81,7 +80,8 @@ float expOf(float power)
   constexpr float ToWhole = 12582912.0f; // 1.5 * 2^23: after a sum with it a number is whole
   constexpr std::int32_t OneBits = 0x3f800000;
   constexpr int ExponentBit = 23;
-  const float twos = Log2OfE * std::max(LeastPower, power); // of NaN that of the least
+  const float limited = std::max(power, LeastPower);          // NaN stays
+  const float twos = Log2OfE * std::max(LeastPower, limited); // of NaN that of the least
   const float shifted = twos + ToWhole;
   const float whole = shifted - ToWhole;
   const float part = twos - whole; // -0.5 to 0.5
@@ -97,7 +97,7 @@ float expOf(float power)
   const std::int32_t bits = OneBits + static_cast<std::int32_t>(whole) * (1 << ExponentBit);
   float scale;
   std::memcpy(&scale, &bits, sizeof(scale));
-  return std::isnan(power) ? power : series * scale;
+  return series * scale + (limited - limited); // 0, or NaN
 }
 
 // Turns sums of squares into numbers from 0 to 1, where 1 is the most alike pair.
