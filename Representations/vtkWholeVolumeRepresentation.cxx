@@ -136,21 +136,22 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
 {
   return brainshift::guarded(this, 0, [&] {
     brainshift::FailedUpdate failed(this, request);
+    auto view = vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW()));
+    const Group group = this->GroupIn(view);
+    const bool isFirst = group.front() == this;
     if (request == vtkPVView::REQUEST_UPDATE())
     {
       // First the data of this process, then that of all. The superclass finds both done and only
       // hands the data to the view.
-      auto view = vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW()));
-      const Group group = this->GroupIn(view);
-      if (group.front() == this)
+      if (isFirst)
       {
         ChooseWhoDraws(view, group);
         ShareOut(group, input, output);
       }
     }
-    else if (request == vtkPVView::REQUEST_RENDER() && this->IsBehind(input))
+    else if (request == vtkPVView::REQUEST_RENDER() && isFirst && AreBehind(group))
     {
-      this->Overtake(input);
+      Overtake(group, input);
     }
     failed.end();
     const int result = this->Superclass::ProcessViewRequest(request, input, output);
@@ -162,35 +163,32 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
   });
 }
 
-// Whether a picture is drawn before the view brought its data, the same on all ranks. Each of them
-// comes here for every picture. Ranks that draw several volumes share them out together: these wait
-// for the view's update.
-bool vtkWholeVolumeRepresentation::IsBehind(vtkInformation* input)
+// Whether a picture is drawn before the view brought the data of some volumes, the same on all
+// ranks. Each of them comes here for every picture, with the first volume of its group.
+bool vtkWholeVolumeRepresentation::AreBehind(const Group& group)
 {
+  const bool needsUpdate =
+    std::any_of(group.begin(), group.end(), [](auto* one) { return one->GetNeedsUpdate(); });
   vtkMultiProcessController* ranks = brainshift::severalRanks();
-  if (!ranks)
-  {
-    return this->GetNeedsUpdate() && mayHaveRanks();
-  }
-  auto view = vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW()));
-  const bool isReady = !this->GetNeedsUpdate() || this->GroupIn(view).size() > 1;
-  return !brainshift::isTrueOnAny(ranks, isReady);
+  return ranks ? !brainshift::isTrueOnAny(ranks, !needsUpdate) : needsUpdate && mayHaveRanks();
 }
 
 // A client draws a stroke under the hand ahead of the view's update, for a far server answers each
 // question of an update one round trip later. Its data comes here. Ranks keep their boxes, since
 // the view has ordered the ranks by them.
-void vtkWholeVolumeRepresentation::Overtake(vtkInformation* input)
+void vtkWholeVolumeRepresentation::Overtake(const Group& group, vtkInformation* input)
 {
   auto view = vtkPVView::SafeDownCast(input->Get(vtkPVView::VIEW()));
   vtkNew<vtkInformation> output;
-  this->KeepsBoxes = true;
-  const bool brought = view && this->ProcessViewRequest(vtkPVView::REQUEST_UPDATE(), input, output);
-  this->KeepsBoxes = false;
-  if (brought)
+  group.front()->KeepsBoxes = true; // of all volumes
+  for (vtkWholeVolumeRepresentation* volume : group)
   {
-    brainshift::deliverNow(this, view);
+    if (volume->ProcessViewRequest(vtkPVView::REQUEST_UPDATE(), input, output))
+    {
+      brainshift::deliverNow(volume, view);
+    }
   }
+  group.front()->KeepsBoxes = false;
 }
 
 void vtkWholeVolumeRepresentation::SetRankHalo(double halo)
@@ -508,16 +506,17 @@ brainshift::Box vtkWholeVolumeRepresentation::ShareWork(
   const bool counted = drawsParts && (!first->KeepsBoxes || first->RankBoxes.empty());
   brainshift::TissueCounts counts;
   counts.box = bounds;
-  for (vtkWholeVolumeRepresentation* volume : group)
+  if (counted) // on all ranks, or on none
   {
-    if (counted && problem.empty())
+    for (vtkWholeVolumeRepresentation* volume : group)
     {
-      problem = brainshift::sentenceThrownBy(
-        "its part of the volume", [&] { volume->CountVisible(volume->Part, counts); });
+      const auto count = [&] { volume->CountVisible(volume->Part, counts); };
+      problem =
+        problem.empty() ? brainshift::sentenceThrownBy("its part of the volume", count) : problem;
     }
+    const std::vector<long long> own = counts.cells;
+    ranks->AllReduce(own.data(), counts.cells.data(), own.size(), vtkCommunicator::SUM_OP);
   }
-  const std::vector<long long> own = counts.cells;
-  ranks->AllReduce(own.data(), counts.cells.data(), own.size(), vtkCommunicator::SUM_OP);
   const std::vector<brainshift::Box> parts = brainshift::balancedParts(
     first->RankBoxes, first->AllBoxes, ranks->GetNumberOfProcesses(), counts, first->KeepsBoxes);
   for (vtkWholeVolumeRepresentation* volume : group)

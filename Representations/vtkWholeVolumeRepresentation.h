@@ -107,8 +107,8 @@ private:
   using Group = std::vector<vtkWholeVolumeRepresentation*>; // what a view shows, one or more
   struct Taken;
 
-  bool IsBehind(vtkInformation* input);
-  void Overtake(vtkInformation* input);
+  static bool AreBehind(const Group& group);
+  static void Overtake(const Group& group, vtkInformation* input);
   Group GroupIn(vtkPVRenderView* view);
   static std::string WhyWholeIn(vtkPVRenderView* view, const Group& group);
   static void ChooseWhoDraws(vtkPVRenderView* view, const Group& group);

@@ -54,18 +54,8 @@ void addDisplays(pqPipelineSource* source, pqView* view, QSet<pqPipelineSource*>
   }
 }
 
-// How many bent volumes a view shows.
-int bentVolumesIn(pqView* view)
-{
-  const QList<pqRepresentation*> shown = view->getRepresentations();
-  return static_cast<int>(std::count_if(shown.begin(), shown.end(), [](pqRepresentation* one) {
-    auto display = qobject_cast<pqDataRepresentation*>(one);
-    return display && display->isVisible() && (showsVolume(display) || showsSlices(display));
-  }));
-}
-
 // Whether one server has the data and draws a moving picture of it, and no display but bent volumes
-// changes. Ranks draw a single one ahead: they share several out together.
+// changes.
 bool isDrawnByServer(pqView* view, const std::vector<pqDataRepresentation*>& displays)
 {
   vtkSMProxy* proxy = view->getProxy();
@@ -76,7 +66,6 @@ bool isDrawnByServer(pqView* view, const std::vector<pqDataRepresentation*>& dis
     session->IsA("vtkSMSessionClient") &&
     session->GetController(vtkPVSession::DATA_SERVER_ROOT) ==
     session->GetController(vtkPVSession::RENDER_SERVER_ROOT) &&
-    (session->GetNumberOfProcesses(vtkPVSession::DATA_SERVER) == 1 || bentVolumesIn(view) == 1) &&
     std::all_of(displays.begin(), displays.end(),
       [](pqDataRepresentation* display) { return showsVolume(display) || showsSlices(display); });
 }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that two MPI ranks of a server draw what a hand drags within two round trips, as one
-process does, and that these pictures are those of ParaView's own update, in 3D and in slices.
+process does, and that these pictures are those of ParaView's own update, in 3D, in slices, and
+beside a second bent volume.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
@@ -13,7 +14,7 @@ from brainshift_testing import on_screen, server, server_finds_plugin
 from paraview import simple
 from ranks_testing import MPI
 
-MIDDLE = (20.0, 20.0, 20.0)
+SIDE = 40  # of a block, mm
 RANKS = "2"
 
 
@@ -23,17 +24,25 @@ def connect(port):
     assert simple.servermanager.ActiveConnection.GetNumberOfDataPartitions() == int(RANKS)
 
 
-def show():
-    """The block drawn by the ranks, each a half of it, in a view of the window."""
-    source = simple.Wavelet(WholeExtent=[0, 40, 0, 40, 0, 40], Center=MIDDLE)
+def block(view, name, low):
+    """A bent block that begins at a height (mm) in the view, and its display."""
+    middle = 0.5 * SIDE
+    source = simple.Wavelet(WholeExtent=[0, SIDE, 0, SIDE, low, low + SIDE],
+                            Center=[middle, middle, low + middle])
     bent = simple.FreeFormDeformation(
-        registrationName="bent", Input=source, LatticeDimensions=[11, 11, 11])
-    view = simple.GetActiveViewOrCreate("RenderView")
+        registrationName=name, Input=source, LatticeDimensions=[11, 11, 11])
     display = simple.Show(bent, view)
     display.SetRepresentationType("Deformed Volume")
     display.AmbientOcclusion = 0  # ranks that draw parts have none
     display.AdaptiveQuality = 0  # or pictures depend on the time they take
     simple.ColorBy(display, ("POINTS", "RTData"))
+    return bent, display
+
+
+def show():
+    """The block drawn by the ranks, each a half of it, in a view of the window."""
+    view = simple.GetActiveViewOrCreate("RenderView")
+    bent, display = block(view, "bent", 0)
     simple.GetOpacityTransferFunction("RTData").Points = [0, 1, 0.5, 0, 300, 1, 0.5, 0]
     simple.SetActiveSource(bent)
     simple.ResetCamera(view)
@@ -50,6 +59,16 @@ def drag(far):
         simple.Render(view)
         hand.wait(100)
         drag_one(far, bent, view, display, kind)
+    display.SetRepresentationType("Deformed Volume")
+    other, _ = block(view, "other", SIDE + 5)
+    # It keeps the clipping planes: else only ParaView's update moves them, and rays are rounded.
+    around = simple.Box(XLength=70, YLength=70, ZLength=130, Center=[20, 20, 45])
+    simple.Show(around, view).SetRepresentationType("Outline")
+    other.Strokes = brainshift.soft((20.0, 20.0, 60.0), (0.0, 6.0, 0.0), 15.0)
+    simple.SetActiveSource(bent)
+    simple.Render(view)
+    hand.wait(100)
+    drag_one(far, bent, view, display, "a second block")
 
 
 def drag_one(far, bent, view, display, kind):
