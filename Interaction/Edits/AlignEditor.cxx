@@ -113,9 +113,10 @@ void AlignEditor::begin()
 
 QString AlignEditor::beginAlignment()
 {
-  if (this->Source->modifiedState() == pqProxy::UNINITIALIZED)
+  const QString unapplied = whyUnapplied(this->Source);
+  if (!unapplied.isEmpty())
   {
-    return tr("%1 has not been applied yet. Press Apply first.").arg(this->Source->getSMName());
+    return unapplied;
   }
   SCOPED_UNDO_EXCLUDE();
   vtkSMProxy* compare = this->Source->getProxy();
@@ -247,6 +248,12 @@ void AlignEditor::restore()
 {
   SCOPED_UNDO_EXCLUDE();
   this->put(this->Start);
+}
+
+void AlignEditor::comeBack()
+{
+  SCOPED_UNDO_EXCLUDE();
+  this->put(this->found());
 }
 
 void AlignEditor::release()

@@ -46,6 +46,7 @@ protected:
   void keep(State end) override;
   void putResult() override;
   void restore() override; ///< The reference goes back to where it was.
+  void comeBack() override;
   void release() override;
   bool dependsOn(vtkObject* proxy, const char* property) const override;
   void followChange(vtkObject* proxy, const char* property) override;

@@ -5,6 +5,7 @@
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/Reports.h"
 
+#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqServer.h>
 
@@ -17,6 +18,20 @@
 
 namespace brainshift
 {
+QString whyUnapplied(pqPipelineSource* source)
+{
+  if (source && source->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    return LiveRun::tr("%1 has not been applied yet. Press Apply first.").arg(source->getSMName());
+  }
+  if (source && source->modifiedState() == pqProxy::MODIFIED)
+  {
+    return LiveRun::tr("%1 has changes that are not applied. Press Apply or Reset first.")
+      .arg(source->getSMName());
+  }
+  return {};
+}
+
 LiveRun::LiveRun(pqPipelineSource* source)
   : QObject(source)
   , Source(source)
@@ -43,6 +58,8 @@ void LiveRun::followApplication()
     }
   };
   this->connect(qApp, &QCoreApplication::aboutToQuit, this, [abandonIf] { abandonIf(true); });
+  this->connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
+    &LiveRun::standAside);
   pqServerManagerModel* model = serverManagerModel();
   this->connect(model, &pqServerManagerModel::preServerRemoved, this,
     [this, abandonIf](pqServer* server) { abandonIf(server == this->Source->getServer()); });
@@ -50,6 +67,25 @@ void LiveRun::followApplication()
     if (this->isActive())
     {
       this->followRemoval(source);
+    }
+  });
+}
+
+// A state file gets what was there before: what is under way is neither kept nor checked.
+void LiveRun::standAside()
+{
+  if (!this->isActive())
+  {
+    return;
+  }
+  this->Next.stop();
+  this->restore();
+  QTimer::singleShot(0, this, [this] {
+    if (this->isActive())
+    {
+      this->comeBack();
+      drawFully(this->Source);
+      this->Now == State::Running ? this->Next.start() : void();
     }
   });
 }

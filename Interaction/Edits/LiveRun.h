@@ -22,6 +22,10 @@ class vtkObject;
 
 namespace brainshift
 {
+/// Why a source cannot be registered as its panel shows it: the source, or a value in the panel, is
+/// not applied. A sentence; empty if it can be, and for null.
+QString whyUnapplied(pqPipelineSource* source);
+
 class LiveRun : public QObject
 {
   Q_OBJECT
@@ -98,6 +102,8 @@ protected:
   virtual void putResult() = 0;
   /// Restores the state before it.
   virtual void restore() = 0;
+  /// Shows the last step again, after restore() for a state file: it must not lose the start.
+  virtual void comeBack() = 0;
   /// Releases the members that are used while it is active.
   virtual void release() = 0;
   /// Whether the result depends on a property: of the source, or of another proxy that it watches.
@@ -117,6 +123,7 @@ protected:
 
 private:
   void followApplication();
+  void standAside();
 
   bool HasDiscarded = false;
   bool HasChangedSince = false;

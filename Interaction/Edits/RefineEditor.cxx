@@ -55,9 +55,13 @@ void setLattice(vtkSMProxy* deformation, vtkSMProxy* lattice)
 // The reason against a refinement that the client knows: a sentence; empty if there is none.
 QString whyNot(pqPipelineSource* deformation, const RefineSettings& settings)
 {
-  if (deformation->modifiedState() == pqProxy::UNINITIALIZED)
+  for (pqPipelineSource* source : { deformation, settings.reference, settings.cavity })
   {
-    return tr("%1 has not been applied yet. Press Apply first.").arg(deformation->getSMName());
+    const QString unapplied = whyUnapplied(source);
+    if (!unapplied.isEmpty())
+    {
+      return unapplied;
+    }
   }
   if (!settings.reference)
   {
@@ -311,7 +315,7 @@ void RefineEditor::hold()
     makeLatticeFilter(this->Source->getProxy(), "RefinedLattice");
   registerQuietly(made, "refined");
   this->Held = made;
-  this->putIn(made, this->Start);
+  this->putIn(made, this->Points);
 }
 
 // The lattice contains the effect of base and strokes, so it replaces both.
@@ -454,11 +458,19 @@ QByteArray RefineEditor::found() const
 void RefineEditor::restore()
 {
   this->putBack();
-  if (this->Held)
+  const vtkSmartPointer<vtkSMProxy> held = this->Held.GetPointer();
+  this->Held = nullptr; // its removal ends nothing
+  if (held)
   {
     SCOPED_UNDO_EXCLUDE();
-    this->Held->GetSessionProxyManager()->UnRegisterProxy(this->Held);
+    held->GetSessionProxyManager()->UnRegisterProxy(held);
   }
+}
+
+void RefineEditor::comeBack()
+{
+  this->hold();
+  this->IsDrawn = true;
 }
 
 void RefineEditor::putBack()

@@ -86,6 +86,7 @@ protected:
   void putResult() override;
   QByteArray found() const;
   void restore() override;
+  void comeBack() override;
   void release() override;
   bool dependsOn(vtkObject* proxy, const char* property) const override;
   void followChange(vtkObject* proxy, const char* property) override;

@@ -3,6 +3,7 @@
 
 #include "Interaction/Commands/Application.h"
 #include "Interaction/Displays/SharedSettings.h"
+#include "Interaction/Edits/RefineEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Workarounds/Docks.h"
 #include "Panel/Parts/Advice.h"
@@ -71,6 +72,10 @@ ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget
     &ResultWidget::showFiguresSoon);
   this->connect(
     StrokeEditor::of(this->Source), &StrokeEditor::drawn, this, &ResultWidget::showFiguresSoon);
+  if (RefineEditor* refine = RefineEditor::of(this->Source)) // its steps announce no new data
+  {
+    this->connect(refine, &RefineEditor::changed, this, &ResultWidget::showFiguresSoon);
+  }
 }
 
 ResultWidget::~ResultWidget() = default;
@@ -132,8 +137,9 @@ void ResultWidget::showFiguresSoon()
   {
     return;
   }
-  const bool drags = StrokeEditor::of(this->Source)->isEditing();
-  const qint64 pause = drags ? std::max(FiguresMs, DragsShare * this->FiguresTookMs) : FiguresMs;
+  const RefineEditor* refine = RefineEditor::of(this->Source);
+  const bool moves = StrokeEditor::of(this->Source)->isEditing() || (refine && refine->isActive());
+  const qint64 pause = moves ? std::max(FiguresMs, DragsShare * this->FiguresTookMs) : FiguresMs;
   const qint64 passed = this->SinceFigures.isValid() ? this->SinceFigures.elapsed() : pause;
   const int wait = static_cast<int>(std::max<qint64>(pause - passed, 0));
   if (!this->FiguresSoon.isActive() || wait < this->FiguresSoon.remainingTime())

@@ -346,7 +346,8 @@ TEST_HAND_EXPORT int test_hand_type(const char* name, const char* text)
   {
     auto field = window->findChild<QWidget*>(name);
     auto box = qobject_cast<QAbstractSpinBox*>(field);
-    auto line = box ? box->findChild<QLineEdit*>() : qobject_cast<QLineEdit*>(field);
+    auto own = qobject_cast<QLineEdit*>(field);
+    auto line = own || !field ? own : field->findChild<QLineEdit*>(); // the first of a vector's
     if (line && line->isEnabled())
     {
       line->selectAll();

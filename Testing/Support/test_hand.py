@@ -245,7 +245,8 @@ def answered():
 
 
 def type_into(name, text):
-    """Types into a field of the window, in place of what it holds; False if there is none."""
+    """Types into a field of the window, or the first one of a property that the panel shows, in
+    place of what it holds; False if there is none."""
     return bool(_library.test_hand_type(name.encode(), str(text).encode()))
 
 

@@ -262,6 +262,18 @@ def a_failed_result_changes_nothing():
     hand.wait(200)
 
 
+def what_is_typed_counts_first():
+    """It would begin where the reference is, and what was typed would be lost."""
+    before = motion()
+    assert hand.type_into("ReferenceTranslation", "5")
+    assert hand.click("BrainShiftAlign")
+    assert "compared has changes that are not applied" in warned(), warned()
+    assert motion() == before and not is_running(), motion()
+    assert hand.click("Accept"), "what was typed is gone"
+    hand.wait(100)
+    assert motion() != before, "what was typed is gone"
+
+
 def a_state_keeps_it():
     move_away()
     begin()
@@ -299,4 +311,5 @@ window.main("AlignByHand", [
     (set_up,), (the_picture_follows,), (it_is_one_step,), (it_ends_the_flicker,),
     (escape_moves_it_back,),
     (stop_keeps_it,), (a_hand_comes_first,), (others_have_their_way,), (too_far_is_said,),
-    (a_failed_result_changes_nothing,), (a_state_keeps_it,), (all_may_go,)])
+    (a_failed_result_changes_nothing,), (what_is_typed_counts_first,), (a_state_keeps_it,),
+    (all_may_go,)])

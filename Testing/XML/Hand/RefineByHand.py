@@ -148,6 +148,24 @@ def pause_holds_it():
     assert step() > taken, said()
 
 
+def a_state_has_the_start():
+    """One that is saved meanwhile: what the user made, not a step that no check saw."""
+    assert float(hand.label("BrainShiftDisplacement").strip("</b> m")) > 0.5, "of the last step"
+    assert hand.click("BrainShiftRefinePause")
+    now, taken, file = field(), step(), scratch("midway.pvsm")
+    hand.save_state(file)
+    with open(file, encoding="utf-8") as saved:
+        state = saved.read()
+    os.remove(file)
+    assert "refined" not in state, "the lattice of a step"
+    numbers = re.search(r'<Property name="Strokes"[^>]*number_of_elements="(\d+)"', state)
+    assert numbers and int(numbers.group(1)) == len(HAND), numbers
+    hand.wait(100)
+    assert numpy.allclose(field(), now) and step() == taken and len(lattices()) == 1, said()
+    kept["undo"] = undo_labels()  # ParaView makes a step of what it writes
+    assert hand.click("BrainShiftRefinePause")
+
+
 def panel_stays():
     """When the pipeline browser has moved what got another input."""
     for _ in range(20):
@@ -573,6 +591,7 @@ def the_session_may_go():
 
 window.main("RefineByHand", [
     (set_up,), (closed_until_it_is_wanted,), (the_picture_follows,), (pause_holds_it,),
+    (a_state_has_the_start,),
     (stop_keeps_it,), (it_is_one_step,), (escape_puts_all_back,), (it_ends_by_itself,),
     (a_failed_result_changes_nothing,), (align_ends_first,), (a_reference_may_move,),
     (landmarks_judge_it,), (a_state_keeps_it,),
