@@ -127,8 +127,10 @@ std::string insideReason(const std::optional<double>& gain, double besideMm)
   const std::string percent = roundedText(100.0 * std::abs(*gain));
   return "Far within the outlines the volumes match no better than " + inMm(besideMm) +
     " beside the result: the cost is " + percent +
-    (*gain < 0.0 ? " percent more" : " percent less") + "; for right results it is at least " +
-    roundedText(100.0 * LeastGainInside) + " percent less. The tissue may be another one.";
+    (*gain < 0.0 ? " percent more" : " percent less") + "; a result is doubtful below " +
+    roundedText(100.0 * LeastGainInside) +
+    " percent less, and right ones are far above. The tissue "
+    "may be another one.";
 }
 
 std::string elsewhereReason(const Elsewhere& blocks)

@@ -60,6 +60,39 @@ double daysOf(int year, int month, int day)
   const int monthDays = (153 * marchMonth + 2) / 5;
   return 365.0 * marchYear + leapDays + monthDays + day - 1 - 719468.0;
 }
+
+// A date or time without the two marks that former versions of the standard put into it.
+std::string withoutMarks(std::string text, char mark, std::size_t first, std::size_t second)
+{
+  for (const std::size_t at : { first, second })
+  {
+    if (text.size() > at && text[at] == mark)
+    {
+      text.erase(at, 1);
+    }
+  }
+  return text;
+}
+
+// Seconds since midnight of a time (VR TM) of hours alone, with minutes, or with seconds.
+std::optional<double> secondsOfDay(const std::string& text)
+{
+  const std::string time = withoutMarks(text, ':', 2, 4);
+  const std::size_t point = std::min(time.find('.'), time.size());
+  const int hour = digits(time, 0, 2);
+  const int minute = point > 2 ? digits(time, 2, 2) : 0;
+  const int second = point > 4 ? digits(time, 4, 2) : 0;
+  const bool isWhole = point == 6 || (point == time.size() && (point == 2 || point == 4));
+  const bool hasFraction = time.find_first_not_of("0123456789", point + 1) == std::string::npos;
+  if (!isWhole || !hasFraction || hour < 0 || hour > 23 || minute < 0 || minute > 59 ||
+    second < 0 || second > 60) // 60: a leap second
+  {
+    return {};
+  }
+  const double fraction =
+    point + 1 < time.size() ? numberIn<double>("0" + time.substr(point)).value_or(0.0) : 0.0;
+  return 3600.0 * hour + 60.0 * minute + second + fraction;
+}
 }
 
 std::size_t lettersOf(const std::string& text)
@@ -220,23 +253,41 @@ double wholeOf(const DICOMDataSet& set, DICOMTag tag, double missing)
   return narrow ? *narrow : missing;
 }
 
-double secondsOf(const std::string& date, const std::string& time, double missing)
+std::optional<double> secondsOf(const std::string& date, const std::string& time)
 {
-  const int hour = digits(time, 0, 2);
-  if (hour < 0)
+  const std::optional<double> seconds = secondsOfDay(time);
+  if (date.empty() || !seconds)
   {
-    return missing;
+    return seconds;
   }
-  double seconds = 3600.0 * hour + 60.0 * std::max(digits(time, 2, 2), 0);
-  std::string_view behind(time);
-  behind.remove_prefix(std::min<std::size_t>(4, time.size()));
-  const double rest = takeNumber<double>(behind).value_or(0.0);
-  seconds += std::isfinite(rest) ? rest : 0.0;
-  const int year = digits(date, 0, 4);
-  const int month = digits(date, 4, 2);
-  const int day = digits(date, 6, 2);
-  const bool isDated = year > 0 && month >= 1 && month <= 12 && day >= 1 && day <= 31;
-  return seconds + (isDated ? 86400.0 * daysOf(year, month, day) : 0.0);
+  const std::string digitsOfDate = withoutMarks(date, '.', 4, 6);
+  const int month = digits(digitsOfDate, 4, 2);
+  const int day = digits(digitsOfDate, 6, 2);
+  const int year = digits(digitsOfDate, 0, 4);
+  const bool isDate =
+    digitsOfDate.size() == 8 && year > 0 && month >= 1 && month <= 12 && day >= 1 && day <= 31;
+  return isDate ? std::optional<double>(*seconds + DayS * daysOf(year, month, day)) : std::nullopt;
+}
+
+std::optional<double> secondsOf(const std::string& moment)
+{
+  const std::size_t sign = moment.find_first_of("+-");
+  const std::string offset = sign == std::string::npos ? "+0000" : moment.substr(sign);
+  const int hours = digits(offset, 1, 2);
+  const int minutes = digits(offset, 3, 2);
+  const bool isOffset =
+    offset.size() == 5 && hours >= 0 && hours <= 14 && minutes >= 0 && minutes < 60;
+  if (moment.size() < 10 || !isOffset)
+  {
+    return {};
+  }
+  std::optional<double> seconds =
+    secondsOf(moment.substr(0, 8), moment.substr(8, std::min(sign, moment.size()) - 8));
+  if (seconds)
+  {
+    *seconds -= (offset[0] == '-' ? -60.0 : 60.0) * (60 * hours + minutes);
+  }
+  return seconds;
 }
 
 bool isSame(const DICOMDataSet& a, const DICOMDataSet& b)

@@ -6,10 +6,14 @@
 
 #include "Formats/DICOM/DICOMDataSet.h"
 
+#include <optional>
+
 namespace brainshift
 {
 /** Letters that a long string (VR LO) may have. */
 constexpr std::size_t LongestText = 64;
+
+constexpr double DayS = 86400.0; ///< seconds of a day
 
 /** How many letters a text in UTF-8 has. */
 std::size_t lettersOf(const std::string& text);
@@ -68,8 +72,12 @@ std::vector<DICOMTag> tagsOf(const DICOMDataSet& set, DICOMTag tag);
 /** A date (VR DA) as 2026-11-23; empty if it is none. */
 std::string dateOf(const DICOMDataSet& set, DICOMTag tag);
 
-/** Seconds since 1970 of a date (VR DA) and a time (VR TM), or `missing`. */
-double secondsOf(const std::string& date, const std::string& time, double missing);
+/** Seconds since 1970 of a date (VR DA) and a time (VR TM), since midnight without a date. Also as
+ * older files have them: 2026.11.23 and 10:15:30. Nothing if one is none. */
+std::optional<double> secondsOf(const std::string& date, const std::string& time);
+
+/** Seconds since 1970 of a date and time in one (VR DT), in UTC if it has its offset from UTC. */
+std::optional<double> secondsOf(const std::string& moment);
 
 /** Whether two data sets have the same attributes with the same values. */
 bool isSame(const DICOMDataSet& a, const DICOMDataSet& b);

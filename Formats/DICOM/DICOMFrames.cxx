@@ -191,14 +191,6 @@ void readMappings(const Items& mappings, DICOMFrame& frame, Notes& notes)
   }
 }
 
-// A date and time in one text (VR DT): the offset from UTC at its end does not count.
-double secondsOfMoment(const std::string& moment, double missing)
-{
-  return moment.size() < 10
-    ? missing
-    : secondsOf(moment.substr(0, 8), moment.substr(8, moment.find_first_of("+-") - 8), missing);
-}
-
 // The first number of an attribute that other images may be without.
 double countedDecimal(const DICOMDataSet& set, const DICOMName& name, double missing, Notes& notes)
 {
@@ -209,6 +201,50 @@ double countedDecimal(const DICOMDataSet& set, const DICOMName& name, double mis
     addNote(notes, problem + ". It counts as " + numberText(missing));
   }
   return numbers.empty() ? missing : numbers.front();
+}
+
+// A time that a text says, with a note if it says none.
+std::optional<double> toldSeconds(
+  const std::optional<double>& seconds, const std::string& text, const char* keyword, Notes& notes)
+{
+  if (!seconds && !text.empty())
+  {
+    addNote(notes,
+      joined("has the ", keyword, " ", plainText(text), ", which is no time. It does not count"));
+  }
+  return seconds;
+}
+
+void takeAcquired(double seconds, bool isContentTime, DICOMMoment& moment)
+{
+  moment.acquiredS = seconds;
+  moment.isTimed = true;
+  moment.isContentTime = isContentTime;
+}
+
+// Of the acquisition; if the file does not say it, of the image.
+void readAcquired(const DICOMDataSet& set, DICOMMoment& moment, Notes& notes)
+{
+  const std::string text = textOf(set, 0x0008002a);
+  const std::optional<double> told =
+    toldSeconds(secondsOf(text), text, "AcquisitionDateTime", notes);
+  const auto of = [&](DICOMTag dateTag, DICOMTag timeTag, const char* keyword) {
+    const std::string date = textOf(set, dateTag);
+    const std::string time = textOf(set, timeTag);
+    const std::string both = time.empty() ? std::string() : date.empty() ? time : date + " " + time;
+    return toldSeconds(secondsOf(date, time), both, keyword, notes);
+  };
+  const std::optional<double> acquired =
+    told ? told : of(0x00080022, 0x00080032, "AcquisitionTime");
+  const std::optional<double> content = of(0x00080023, 0x00080033, "ContentTime");
+  if (acquired || content)
+  {
+    takeAcquired(acquired ? *acquired : *content, !acquired, moment);
+  }
+  if (!dateOf(set, 0x00080023).empty())
+  {
+    moment.contentS = content.value_or(-1.0);
+  }
 }
 
 void readMoment(const DICOMDataSet& set, DICOMMoment& moment, Notes& notes)
@@ -225,22 +261,7 @@ void readMoment(const DICOMDataSet& set, DICOMMoment& moment, Notes& notes)
   moment.instance = number(0x00200013, "InstanceNumber", 0.0);
   moment.intervalS =
     1e-3 * number(0x00200110, "TemporalResolution", number(0x00180080, "RepetitionTime", 0.0));
-  moment.acquiredS = secondsOfMoment(textOf(set, 0x0008002a), -1.0);
-  for (const DICOMTag time : { 0x00080032, 0x00080033 }) // acquisition, content
-  {
-    if (moment.acquiredS < 0.0)
-    {
-      const DICOMTag date = time - 0x10;
-      moment.acquiredS = secondsOf(textOf(set, date), textOf(set, time), -1.0);
-      moment.isContentTime = time == 0x00080033 && moment.acquiredS >= 0.0;
-    }
-  }
-  moment.isTimed = moment.acquiredS >= 0.0;
-  moment.acquiredS = std::max(moment.acquiredS, 0.0);
-  if (!dateOf(set, 0x00080023).empty())
-  {
-    moment.contentS = secondsOf(textOf(set, 0x00080023), textOf(set, 0x00080033), -1.0);
-  }
+  readAcquired(set, moment, notes);
   moment.referenceS = 1e-3 * number(0x00541300, "FrameReferenceTime", 0.0);
 }
 
@@ -303,12 +324,9 @@ void readFrameMoment(const Groups& groups, int index, DICOMMoment& moment)
     moment.temporalPosition = wholeOf(content, 0x00209128, 0.0);
     for (const DICOMTag tag : { 0x00189074, 0x00189151 })
     {
-      const double acquired = secondsOfMoment(textOf(content, tag), -1.0);
-      if (acquired >= 0.0)
+      if (const std::optional<double> acquired = secondsOf(textOf(content, tag)))
       {
-        moment.acquiredS = acquired;
-        moment.isTimed = true;
-        moment.isContentTime = false;
+        takeAcquired(*acquired, false, moment);
         break;
       }
     }

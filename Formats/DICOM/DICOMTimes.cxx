@@ -12,7 +12,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr double DayS = 86400.0;
 constexpr double HalfDayS = 0.5 * DayS;
 constexpr double SameTriggerMs = 1.0; // files round them
 
@@ -105,6 +104,18 @@ std::vector<double> sortedTimes(const std::vector<Images>& places)
   }
   std::sort(times.begin(), times.end());
   return times;
+}
+
+// Where an image has no time, those of others do not say the order.
+void dropTimes(std::vector<Images>& places)
+{
+  for (Images& place : places)
+  {
+    for (DICOMFrame& image : place)
+    {
+      image.moment.acquiredS = 0.0;
+    }
+  }
 }
 
 // Adds what the images of one position do. False if the witness does not tell them apart.
@@ -258,6 +269,10 @@ bool areTriggersApart(const std::vector<Images>& volumes)
 std::string passMidnight(std::vector<std::vector<DICOMFrame>>& places)
 {
   const std::vector<double> times = sortedTimes(places);
+  if (times.empty())
+  {
+    dropTimes(places);
+  }
   const bool isSeries =
     std::any_of(places.begin(), places.end(), [](const Images& place) { return place.size() > 1; });
   if (!isSeries || times.empty() || times.back() - times.front() <= HalfDayS ||

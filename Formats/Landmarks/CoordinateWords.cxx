@@ -135,6 +135,13 @@ std::optional<double> lengthUnder(
   return length;
 }
 
+bool namesLength(const std::string& words)
+{
+  const std::vector<std::string> parts = partsOf(lowerCase(words));
+  return std::any_of(parts.begin(), parts.end(),
+    [](const std::string& part) { return lengthOfUnit(part).has_value(); });
+}
+
 FrameMeaning frameIn(const std::string& words)
 {
   if (const std::optional<FrameMeaning> whole = frameOf(words))
@@ -179,7 +186,7 @@ bool saysFrame(const std::string& key)
 {
   constexpr const char* Keys[] = { "coordinatesystem", "coordinatesystems", "coordsystem",
     "coordsys", "coordinatespace", "coordinateframe", "space", "frame", "referenceframe", "axes",
-    "worldaxes" };
+    "worldaxes", "orientation", "anatomicalorientation", "convention" };
   return isOneOf(key, Keys);
 }
 

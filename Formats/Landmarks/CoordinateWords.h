@@ -24,6 +24,9 @@ bool isNoLength(const std::string& word);
 std::optional<double> lengthUnder(
   const std::string& key, const std::string& words, LandmarkList& list);
 
+/** Whether words have the unit of a length among them. */
+bool namesLength(const std::string& words);
+
 /** What the name of a frame says. */
 struct FrameMeaning
 {

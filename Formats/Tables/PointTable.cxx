@@ -264,6 +264,24 @@ std::optional<FileAxes> axesUnder(
   return frame.axes;
 }
 
+// A line may say both, such as "# units: cm, CoordinateSystem: LPS" and "# axes = LPS (mm)".
+SaidOfPositions saidByComment(const CommentEntry& entry, LandmarkList& list)
+{
+  const std::string& words = entry.value;
+  if (saysUnit(entry.key))
+  {
+    const std::optional<double> mm = lengthUnder(entry.key, words, list);
+    const FrameMeaning frame = frameIn(words);
+    return { frame.doubt.empty() ? frame.axes : std::nullopt, mm };
+  }
+  if (saysFrame(entry.key))
+  {
+    return { axesUnder(entry.key, words, list),
+      namesLength(words) ? lengthUnder("unit", words, list) : std::nullopt };
+  }
+  return {};
+}
+
 // What comments say of positions: "# CoordinateSystem = LPS", "# units: cm", above or below.
 SaidOfPositions saidByComments(const std::string& text, char separator, LandmarkList& list)
 {
@@ -276,14 +294,7 @@ SaidOfPositions saidByComments(const std::string& text, char separator, Landmark
     const bool isOne = isComment(values) && (!isBelow || values.size() == 1);
     const CommentEntry entry = isOne ? commentEntry(values, separator) : CommentEntry();
     isBelow = isBelow || !isOne;
-    if (saysUnit(entry.key))
-    {
-      said = agreed(said, { std::nullopt, lengthUnder(entry.key, entry.value, list) });
-    }
-    if (saysFrame(entry.key))
-    {
-      said = agreed(said, { axesUnder(entry.key, entry.value, list), std::nullopt });
-    }
+    said = agreed(said, saidByComment(entry, list));
   }
   return said;
 }

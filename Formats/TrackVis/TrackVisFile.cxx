@@ -63,10 +63,10 @@ struct TrackHeader
     }
     return matrix;
   }
+  bool hasVoxelOrder() const { return this->bytes[948] != '\0' && this->bytes[948] != ' '; }
   std::string voxelOrder() const
   {
-    const std::string letters(this->bytes + 948, 3);
-    return letters[0] == '\0' || letters[0] == ' ' ? "LPS" : letters; // the format's default
+    return this->hasVoxelOrder() ? std::string(this->bytes + 948, 3) : "LPS"; // the default
   }
   int count() const { return this->at<std::int32_t>(988); }
 };
@@ -225,6 +225,12 @@ glm::dmat4 findPlace(const TrackHeader& header, const std::string& volumeName, T
   const glm::dmat4 world = header.hasMatrix() ? header.voxToRas() : givenMatrix(header, volumeName);
   withBeginning("cannot be placed: ", [&] { requireAffine(world); });
   turnAxes(header, world, voxel);
+  if (!header.hasVoxelOrder())
+  {
+    tracts.notes.emplace_back("has no voxel_order: LPS counts, the format's default. If what wrote "
+                              "it meant the axes of its "
+                              "vox_to_ras, sides may be exchanged; compare it with its volume");
+  }
   const double shear = nearestRasGrid(world, glm::ivec3(1)).shear;
   if (shear > LargestUnreportedShear)
   {

@@ -182,6 +182,13 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   }
   const WorldAxes axes = world == WorldAxes::Unknown ? worldAxesOf(image) : world;
   volume.knowsSides = axes != WorldAxes::Unknown;
+  const WorldAxes own = worldAxesOf(image);
+  if (own != WorldAxes::Unknown && own != axes)
+  {
+    warning += std::string(warning.empty() ? "" : ". ") + "The world axes of the input are " +
+      (own == WorldAxes::LPS ? "LPS" : "RAS") + ", but World is " +
+      (axes == WorldAxes::LPS ? "LPS" : "RAS") + ", which counts";
+  }
   if (!volume.knowsSides)
   {
     warning += std::string(warning.empty() ? "" : ". ") + UnknownSidesWritten +

@@ -161,6 +161,42 @@ def test_triggers_that_differ_from_slice_to_slice_mix_no_volumes():
         assert_times(reader, range(len(weights)))
 
 
+def test_all_forms_of_a_time_count():
+    def said(name, values, date=None):
+        def change(image, t, index):
+            setattr(image, name, values[t])
+            image.AcquisitionDate = date or ""
+        return read(series(change, len(values)))
+
+    # As former versions of the standard have it; before 1970, as dates that hide a patient are.
+    for values, right in ((("10:58:00", "10:59:30", "11:01:00"), (0, 90, 180)),
+                          (("1058", "1059", "1101"), (0, 60, 180)),
+                          (("105800.25", "105800.5", "105801"), (0, 0.25, 0.75))):
+        for date in (None, "19000228", "2024.02.29"):
+            reader, told = said("AcquisitionTime", values, date)
+            assert not told, (values, date, told)
+            assert_times(reader, right)
+    # The end of summer time.
+    reader, told = said("AcquisitionDateTime", (
+        "20241027025950+0200", "20241027020000+0100", "20241027020010+0100"))
+    assert not told, told
+    assert_times(reader, (0, 10, 20))
+
+
+def test_what_is_no_time_is_said():
+    for name, values in (("AcquisitionTime", ("101010", "xx", "101012")),
+                         ("AcquisitionTime", ("251010", "101011", "101012")),
+                         ("AcquisitionTime", ("1010 10", "101011", "101012")),
+                         ("AcquisitionDateTime", ("20240229101010+9900", "20240229101011",
+                                                  "20240229101012"))):
+        def change(image, t, index, name=name, values=values):
+            setattr(image, name, values[t])
+        wrong = values[1] if values[1] == "xx" else values[0]
+        reader, told = read(series(change, 3))
+        assert_says(told, f"has the {name} {wrong}, which is no time. It does not count")
+        assert_times(reader, (0, 1, 2))
+
+
 def test_triggers_of_a_beating_heart_are_times():
     def turned(image, t, index):  # not in the order of their numbers
         image.TriggerTime, image.InstanceNumber = str(40.0 * t + 0.3 * index), 10 - 3 * t + index

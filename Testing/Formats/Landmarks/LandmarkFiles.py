@@ -362,6 +362,11 @@ def walked_units_and_frames():
         ("#space: lps\n" + table, (-1, -2, 3), ""), ("# units: cm\n" + table, (10, 20, 30), ""),
         ("# unit = mm, as in the scan\n" + table, (1, 2, 3), ""),
         (table + "# coordinate units: cm\n", (10, 20, 30), ""),
+        ("# units: cm, CoordinateSystem: LPS\n" + table, (-10, -20, 30), ""),
+        ("# CoordinateSystem: LPS, units: cm\n" + table, (-10, -20, 30), ""),
+        ("# axes = LPS (cm)\n" + table, (-10, -20, 30), ""),
+        ("# units: LPS cm\n" + table, (-10, -20, 30), ""),
+        ("# orientation: LPS\n" + table, (-1, -2, 3), ""),
         ("# space: fsaverage\n" + table, (1, 2, 3), "fsaverage, which is that of a template"),
         ("# Coordinate System = 1\n# made by hand: yes\n" + table, (-1, -2, 3), ""))]
     for entry, text, right, words in cases:

@@ -36,7 +36,7 @@ def trackvis_changes():
     others = {"TRACK": (b"TRICK",), "dim": ((11, 12, 14),), "voxel_size": ((1, 2, 2),),
               "origin": ((1, 2, 3),), "scalar_name": (b"md",), "property_name": (b"size",),
               "vox_to_ras": ((1, 0, 0, 4, 0, 1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1),),
-              "reserved": (b"text",), "voxel_order": (b"RAS",), "pad2": (b"LPS",),
+              "reserved": (b"text",), "voxel_order": (b"RAS", b""), "pad2": (b"LPS",),
               "pad1": (b"xy",), "image_orientation_patient": ((0, 1, 0, 1, 0, 0),),
               "n_count": (1,), "version": (1,), "header size": (999, 348)}
     changes = {name: [trackvis(), *(trackvis(**{name: value}) for value in others.get(name, (1,)))]
