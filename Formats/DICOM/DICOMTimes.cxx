@@ -2,6 +2,7 @@
 #include "Formats/DICOM/DICOMTimes.h"
 
 #include "Common/Numbers.h"
+#include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/Files/Text.h"
 
 #include <algorithm>
