@@ -9,6 +9,7 @@
 #include <pqPipelineSource.h>
 
 #include <vtkPVDataInformation.h>
+#include <vtkSMPropertyHelper.h>
 #include <vtkType.h>
 
 #include <QComboBox>
@@ -361,6 +362,26 @@ void RefinePane::refine()
   this->Editor->begin(settings);
 }
 
+// A Compare Volumes has a cavity of its own, or none: that one counts, whatever was chosen here.
+void RefinePane::showCavityOf(pqPipelineSource* reference)
+{
+  const bool hasOwn = isComparison(reference);
+  this->CavityRow->setEnabled(!hasOwn);
+  if (this->Cavity->count() == 0)
+  {
+    return;
+  }
+  QString text = tr("None");
+  if (hasOwn)
+  {
+    vtkSMProxy* own = vtkSMPropertyHelper(reference->getProxy(), "Cavity").GetAsProxy();
+    auto cavity = serverManagerModel()->findItem<pqPipelineSource*>(own);
+    text = tr("%1 (of %2)").arg(cavity ? cavity->getSMName() : text, reference->getSMName());
+    this->Cavity->setCurrentIndex(0);
+  }
+  this->Cavity->setItemText(0, text);
+}
+
 void RefinePane::refresh()
 {
   if (!this->Editor)
@@ -371,8 +392,7 @@ void RefinePane::refresh()
   const bool paused = this->Editor->state() == RefineEditor::State::Paused;
   const bool ran = active || !this->Editor->costs().isEmpty();
   this->Choices->setEnabled(!active);
-  // A Compare Volumes has its own.
-  this->CavityRow->setEnabled(!isComparison(this->chosen(this->Reference)));
+  this->showCavityOf(this->chosen(this->Reference));
   this->Refine->setEnabled(!active);
   this->Pause->setEnabled(active);
   this->Pause->setText(paused ? tr("Resume") : tr("Pause"));

@@ -46,6 +46,7 @@ private:
   void listSources();
   void refine();
   void refresh();
+  void showCavityOf(pqPipelineSource* reference);
   void report();
   void bringIntoSight();
   pqPipelineSource* chosen(const QComboBox* list) const; ///< Null: none.

@@ -63,7 +63,10 @@ TEST_HAND_EXPORT const char* test_hand_entries(const char* name)
 {
   static QByteArray text;
   text.clear();
-  if (auto list = findInWindows<QComboBox>(name))
+  auto list = findInWindows<QComboBox>(name);
+  auto wrap = list ? nullptr : findInWindows<QWidget>(name);
+  list = wrap ? wrap->findChild<QComboBox*>() : list;
+  if (list)
   {
     QStringList entries{ list->currentText() };
     for (int i = 0; i < list->count(); ++i)

@@ -120,6 +120,7 @@ def closed_until_it_is_wanted():
     hand.wait()
     assert hand.is_visible("BrainShiftRefine") and not hand.is_visible("BrainShiftRefineProgress")
     assert hand.choose("BrainShiftRefineReference", "after")
+    assert hand.entries("BrainShiftRefineCavity")[0] == "None"
     assert not hand.choose("BrainShiftRefineReference", "bent"), "compared with itself"
     assert not hand.click("BrainShiftRefinePause") and not hand.click("BrainShiftRefineStop")
 
@@ -229,6 +230,7 @@ def it_ends_by_itself():
         simple.SetActiveSource(deformation())
     hand.wait(100)
     assert hand.choose("BrainShiftRefineReference", "compared")
+    assert hand.entries("BrainShiftRefineCavity")[0] == "None (of compared)"
     begin()
     window.until(lambda: said().startswith("Finished"), "an end", 120.0)
     assert "Its checks found no fault" in said(), (said(), hand.label("BrainShiftRefineWarning"))
