@@ -256,7 +256,8 @@ double wholeOf(const DICOMDataSet& set, DICOMTag tag, double missing)
 std::optional<double> secondsOf(const std::string& date, const std::string& time)
 {
   const std::optional<double> seconds = secondsOfDay(time);
-  if (date.empty() || !seconds)
+  // 00000000 and letters take the place of a date where it was removed.
+  if (date.find_first_of("123456789") == std::string::npos || !seconds)
   {
     return seconds;
   }

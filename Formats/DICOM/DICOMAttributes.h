@@ -72,7 +72,7 @@ std::vector<DICOMTag> tagsOf(const DICOMDataSet& set, DICOMTag tag);
 /** A date (VR DA) as 2026-11-23; empty if it is none. */
 std::string dateOf(const DICOMDataSet& set, DICOMTag tag);
 
-/** Seconds since 1970 of a date (VR DA) and a time (VR TM), since midnight without a date. Also as
+/** Seconds since 1970 of a date (VR DA) and a time (VR TM), since midnight where no date is said. Also as
  * older files have them: 2026.11.23 and 10:15:30. Nothing if one is none. */
 std::optional<double> secondsOf(const std::string& date, const std::string& time);
 

@@ -172,7 +172,7 @@ def test_all_forms_of_a_time_count():
     for values, right in ((("10:58:00", "10:59:30", "11:01:00"), (0, 90, 180)),
                           (("1058", "1059", "1101"), (0, 60, 180)),
                           (("105800.25", "105800.5", "105801"), (0, 0.25, 0.75))):
-        for date in (None, "19000228", "2024.02.29"):
+        for date in (None, "19000228", "2024.02.29", "00000000"):
             reader, told = said("AcquisitionTime", values, date)
             assert not told, (values, date, told)
             assert_times(reader, right)
