@@ -72,8 +72,8 @@ std::vector<DICOMTag> tagsOf(const DICOMDataSet& set, DICOMTag tag);
 /** A date (VR DA) as 2026-11-23; empty if it is none. */
 std::string dateOf(const DICOMDataSet& set, DICOMTag tag);
 
-/** Seconds since 1970 of a date (VR DA) and a time (VR TM), since midnight where no date is said. Also as
- * older files have them: 2026.11.23 and 10:15:30. Nothing if one is none. */
+/** Seconds since 1970 of a date (VR DA) and a time (VR TM), since midnight where no date is said.
+ * Also as older files have them: 2026.11.23 and 10:15:30. Nothing if one is none. */
 std::optional<double> secondsOf(const std::string& date, const std::string& time);
 
 /** Seconds since 1970 of a date and time in one (VR DT), in UTC if it has its offset from UTC. */
