@@ -129,8 +129,7 @@ std::string insideReason(const std::optional<double>& gain, double besideMm)
     " beside the result: the cost is " + percent +
     (*gain < 0.0 ? " percent more" : " percent less") + "; a result is doubtful below " +
     roundedText(100.0 * LeastGainInside) +
-    " percent less, and right ones are far above. The tissue "
-    "may be another one.";
+    " percent less, and right ones are far above. The tissue may be another one.";
 }
 
 std::string elsewhereReason(const Elsewhere& blocks)

@@ -227,9 +227,10 @@ glm::dmat4 findPlace(const TrackHeader& header, const std::string& volumeName, T
   turnAxes(header, world, voxel);
   if (!header.hasVoxelOrder())
   {
-    tracts.notes.emplace_back("has no voxel_order: LPS counts, the format's default. If what wrote "
-                              "it meant the axes of its "
-                              "vox_to_ras, sides may be exchanged; compare it with its volume");
+    tracts.notes.emplace_back(
+      "has no voxel_order: LPS counts, the format's default. If its writer "
+      "meant the axes of its vox_to_ras, sides may be exchanged; compare it "
+      "with its volume");
   }
   const double shear = nearestRasGrid(world, glm::ivec3(1)).shear;
   if (shear > LargestUnreportedShear)
