@@ -393,6 +393,17 @@ const GIFTIArray* firstOf(const GIFTIFile& file, const std::string& intent, Surf
   return first;
 }
 
+// The hemisphere that an array or else its file names.
+Hemisphere hemisphereIn(const GIFTIFile& file, const GIFTIArray& array)
+{
+  constexpr const char* Key = "AnatomicalStructurePrimary";
+  const auto own = array.meta.find(Key);
+  const auto common = file.meta.find(Key);
+  return own != array.meta.end() ? hemisphereOf({ own->second })
+    : common != file.meta.end()  ? hemisphereOf({ common->second })
+                                 : Hemisphere::Unknown;
+}
+
 void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface& surface)
 {
   GIFTIFile file = readGIFTIFile(text);
@@ -407,6 +418,7 @@ void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface
   requireShape(*points, "points", false);
   requireShape(*triangles, "triangles", true);
   findPlace(file, *points, surface);
+  surface.ofPoints = hemisphereIn(file, *points);
   takePoints(*points, surface);
   takeTriangles(*triangles, surface);
   takeNumbers(file, surface);
@@ -419,6 +431,7 @@ void addGIFTINumbers(const std::vector<char>& text, const std::string&, Surface&
   GIFTIFile file = readGIFTIFile(text);
   surface.notes.insert(surface.notes.end(), file.notes.begin(), file.notes.end());
   const std::size_t before = surface.numbers.size() + surface.notes.size();
+  surface.ofValues = hemisphereIn(file, file.arrays.empty() ? GIFTIArray() : file.arrays.front());
   takeNumbers(file, surface);
   throwIfAny(surface.numbers.size() + surface.notes.size() > before
       ? ""

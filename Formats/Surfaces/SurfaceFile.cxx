@@ -161,11 +161,44 @@ std::optional<std::vector<char>> readFileBytes(
   return isStopped ? std::nullopt : std::optional(std::move(bytes));
 }
 
+// The hemisphere of a file: what its content says, or else its name, such as lh.pial,
+// sub-01_hemi-R_white.surf.gii and 100307.L.midthickness.32k_fs_LR.surf.gii.
+Hemisphere hemisphereOfFile(Hemisphere inFile, const std::string& fileName)
+{
+  std::string name = std::filesystem::path(fileName).filename().string();
+  std::replace_if(
+    name.begin(), name.end(), [](char c) { return c == '.' || c == '_' || c == '-'; }, ' ');
+  return inFile == Hemisphere::Unknown ? hemisphereOf(wordsIn(name)) : inFile;
+}
+
+// Points of two hemispheres may be as many and mean other places: all of fsaverage are. They are
+// shown, as those of symmetric templates are alike and people compare both halves there.
+void noteOtherHemisphere(
+  const std::string& surfaceName, const std::string& fileName, Surface& surface)
+{
+  const Hemisphere points = hemisphereOfFile(surface.ofPoints, surfaceName);
+  const Hemisphere values = hemisphereOfFile(surface.ofValues, fileName);
+  if (points == Hemisphere::Unknown || values == Hemisphere::Unknown || points == values)
+  {
+    return;
+  }
+  const auto word = [](Hemisphere one) { return one == Hemisphere::Left ? "left" : "right"; };
+  surface.notes.push_back(joined("is of the ", word(values), " hemisphere, but the surface ",
+    surfaceName, " of the ", word(points),
+    ", by their names or their AnatomicalStructurePrimary; its values are at the right places only "
+    "on a template whose halves have the same points (fsaverage_sym, fs_LR). Otherwise name the "
+    "file of the ",
+    word(points), " hemisphere"));
+}
+
 // Adds the numbers of a file to a surface that is not placed yet.
-void addValues(const std::string& fileName, Surface& surface, std::vector<std::string>& warnings)
+void addValues(const std::string& surfaceName, const std::string& fileName, Surface& surface,
+  std::vector<std::string>& warnings)
 {
   const std::string name = "File of values " + fileName;
   const std::size_t notes = surface.notes.size();
+  const std::size_t arrays = surface.numbers.size();
+  surface.ofValues = Hemisphere::Unknown;
   withWayOut(name + " ", OtherSurface, [&] {
     const auto bytes = readFileBytes(fileName, TimesOfSurface, [](double) { return true; });
     const SurfaceFormat* format = formatOfValues(*bytes);
@@ -175,6 +208,10 @@ void addValues(const std::string& fileName, Surface& surface, std::vector<std::s
     }
     format->addValues(*bytes, nameOfValues(fileName), surface);
   });
+  if (surface.numbers.size() > arrays)
+  {
+    noteOtherHemisphere(surfaceName, fileName, surface);
+  }
   const std::vector<std::string> found(
     surface.notes.begin() + static_cast<std::ptrdiff_t>(notes), surface.notes.end());
   surface.notes.resize(notes);
@@ -200,6 +237,18 @@ std::size_t bytesOf(NumberType type)
     default:
       return 4;
   }
+}
+
+Hemisphere hemisphereOf(const std::vector<std::string>& words)
+{
+  const auto isOf = [&](const char* sign, const char* letter, const std::string& word) {
+    return std::any_of(words.begin(), words.end(), [&](const std::string& one) {
+      return lowerCase(one) == sign || one == letter || endsWith(one, word);
+    });
+  };
+  const bool isLeft = isOf("lh", "L", "left");
+  const bool isRight = isOf("rh", "R", "right");
+  return isLeft == isRight ? Hemisphere::Unknown : isLeft ? Hemisphere::Left : Hemisphere::Right;
 }
 
 std::string OwnNames::own(const std::string& name)
@@ -293,7 +342,7 @@ void readSurfaceFiles(const SurfaceFiles& files, const FractionDone& fractionDon
   {
     if (!values.empty())
     {
-      addValues(values, surface, warnings);
+      addValues(files.fileName, values, surface, warnings);
     }
   }
   withWayOut(name + " ", OtherSurface, [&] { placeSurface(surface); });

@@ -99,6 +99,17 @@ private:
   std::map<std::string, int> Next; // number to try for the next array of a name
 };
 
+/** The half of a brain that a file is of. */
+enum class Hemisphere
+{
+  Unknown,
+  Left,
+  Right,
+};
+
+/** The only hemisphere of which one of some words is: "lh" and "L", or "CortexLeft". */
+Hemisphere hemisphereOf(const std::vector<std::string>& words);
+
 /** Triangles. */
 struct Surface
 {
@@ -110,6 +121,11 @@ struct Surface
   glm::dmat4 worldFromStored{ 1.0 }; ///< mm, RAS
   bool knowsWorld = true;            ///< false: the file does not say where it lies
   std::vector<std::string> notes;    ///< ends of sentences, after the name of the file
+  ///@{
+  /** As the content of a file says: that of the points, or of the last file of values. */
+  Hemisphere ofPoints = Hemisphere::Unknown;
+  Hemisphere ofValues = Hemisphere::Unknown;
+  ///@}
 };
 
 /** Streamlines. */

@@ -91,8 +91,12 @@ def changes():
 
 
 def test_each_field_does_what_the_list_says():
+    right = fields_walk.scratch("walk_hemi-R.gii")
+    with open(right, "wb") as file:
+        file.write(gifti(values=array(VALUES, "NIFTI_INTENT_SHAPE", meta=[("Name", "right")])))
     fields_walk.walk("GIFTI", "Fields of the file", changes(),
-                     lambda content: fields_walk.outcome("SurfaceReader", "walk.gii", content))
+                     lambda content: fields_walk.outcome("SurfaceReader", "walk.gii", content,
+                                                         ValueFileNames=[right]))
 
 
 def test_what_occurs_twice_is_refused_by_its_name():

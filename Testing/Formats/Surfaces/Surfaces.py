@@ -122,6 +122,34 @@ def test_maps_of_values_come_along():
     assert_says(refusal(name, ValueFileNames=[name]), "no map of values")
 
 
+def test_values_of_the_other_hemisphere_are_told():
+    values = numpy.array([2.5, 3.0, 1.25, 4.0], numpy.float32)
+    shape = data_array(values, "NIFTI_INTENT_SHAPE", meta={"Name": "curv"})
+    for name in ("lh.curv", "rh.curv", "L.curv"):
+        nibabel.freesurfer.write_morph_data(scratch(name), values)
+    for name in ("a_hemi-L_curv.gii", "a_hemi-R_curv.gii", "100.R.curv.gii"):
+        write_gifti(scratch(name), [shape])
+    sided = {side: gifti.GiftiMetaData({"AnatomicalStructurePrimary": "Cortex" + side})
+             for side in ("Left", "Right")}
+    write_gifti(scratch("said_left.gii"), [shape], meta=sided["Left"])
+    write_gifti(scratch("L.said.gii"), [shape], meta=sided["Right"])
+    write_surface(scratch("lh.pial"), geometry(next(volumes())))
+    write_surface(scratch("both.lh.rh.pial"), geometry(next(volumes())))
+    arrays = gifti_arrays(system(SCANNER, SCANNER))
+    arrays[0].meta = sided["Right"]
+    write_gifti(scratch("said.surf.gii"), arrays)
+    right = ("rh.curv", "a_hemi-R_curv.gii", "100.R.curv.gii", "L.said.gii")
+    left = ("lh.curv", "L.curv", "a_hemi-L_curv.gii", "said_left.gii")
+    for surface, bad, good in (("lh.pial", right, left), ("said.surf.gii", left, right),
+                               ("both.lh.rh.pial", (), left + right)):
+        for name in bad + good:
+            words = [scratch(name), "hemisphere, but the surface " + scratch(surface),
+                     "fsaverage_sym", "Otherwise name the file of the"] if name in bad else ()
+            data = read(scratch(surface), words, ValueFileNames=[scratch(name)])
+            assert numpy.array_equal(vtk_to_numpy(data.GetPointData().GetArray("curv")
+                                                  or data.GetPointData().GetArray(0)), values)
+
+
 def system(start, end, matrix=numpy.eye(4)):
     return gifti.GiftiCoordSystem(start, end, matrix)
 
