@@ -3,7 +3,8 @@
 /// Volumes in MetaImage (.mha, .mhd) and NRRD (.nrrd, .nhdr) files.
 ///
 /// Three axes must be axes of space. One axis before them is the components of a voxel, or time, or
-/// the layers of a segmentation; one after them is time, or the layers of an old segmentation.
+/// the layers of a segmentation; one after them is time, the layers of an old segmentation, or, if
+/// its kind says so, the components of a voxel.
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/TextHeader.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -224,6 +226,35 @@ bool isSeries(const HeaderAxis& axis)
   return hasNoKind(axis) ? axis.count > MostColors : axis.kind == "time" || axis.kind == "list";
 }
 
+// Whether the kind of the axis after those of space says that its numbers belong to one voxel, such
+// as RGB-color, 3-vector or 3D-symmetric-matrix.
+bool holdsComponents(const HeaderAxis& axis)
+{
+  constexpr const char* Volumes[] = { "time", "list", "domain", "space", "stub", "scalar" };
+  return axis.count > 1 && !hasNoKind(axis) &&
+    std::find(std::begin(Volumes), std::end(Volumes), axis.kind) == std::end(Volumes);
+}
+
+// The numbers of each voxel side by side, from those of one component after the other.
+vtkSmartPointer<vtkDataArray> sideBySide(vtkDataArray* numbers, std::size_t components)
+{
+  auto tuples = vtkSmartPointer<vtkDataArray>::Take(numbers->NewInstance());
+  const std::size_t voxels = static_cast<std::size_t>(numbers->GetNumberOfValues()) / components;
+  tuples->SetNumberOfComponents(static_cast<int>(components));
+  tuples->SetNumberOfTuples(static_cast<vtkIdType>(voxels));
+  const auto size = static_cast<std::size_t>(numbers->GetDataTypeSize());
+  const auto* from = static_cast<const char*>(numbers->GetVoidPointer(0));
+  auto* const to = static_cast<char*>(tuples->GetVoidPointer(0));
+  for (std::size_t component = 0; component < components; ++component)
+  {
+    for (std::size_t voxel = 0; voxel < voxels; ++voxel, from += size)
+    {
+      std::memcpy(to + (voxel * components + component) * size, from, size);
+    }
+  }
+  return tuples;
+}
+
 // The layer that a text means, such as "2: vessels" or "2"; 0-based. Below 0: none of `count`.
 int layerIn(const std::string& text, int count)
 {
@@ -325,8 +356,17 @@ private:
   // Whether all volumes are read together: they are packed, or their numbers lie side by side.
   bool keepsSeries() const
   {
+    if (this->StepsAreComponents)
+    {
+      return false; // there is one volume
+    }
     const bool isApart = this->readsNothingElse() || this->StepsAreLayers;
     return (this->Steps > 1 && !isApart) || (this->TupleIsTime && this->Tuple > 1);
+  }
+  // Whether one step is read at a time.
+  bool readsSteps() const
+  {
+    return this->loads() == Loads::Part && !this->keepsSeries() && !this->StepsAreComponents;
   }
   // The step along the last axis that has a volume of the series, or the layer that is shown.
   std::size_t stepOf(std::size_t volume) const
@@ -351,6 +391,7 @@ private:
   bool TupleIsTime = false; // its numbers are volumes
   std::size_t Steps = 1;    // volumes along the axis after those of space
   bool StepsAreLayers = false;
+  bool StepsAreComponents = false; // of the voxels
   // A part of all volumes, kept for the others of a series, and which part it is.
   vtkSmartPointer<vtkDataArray> Numbers;
   std::array<int, 6> Held{};
@@ -452,13 +493,24 @@ void TextHeaderVolume::arrange(VolumeHeader& header)
     this->Stored.warnings.push_back("does not say what its first axis is (kinds); its " +
       std::to_string(this->Tuple) + " numbers at each voxel count as volumes of a series");
   }
+  this->StepsAreComponents = hasSteps && holdsComponents(axes.back());
+  if (this->StepsAreComponents && first == 1)
+  {
+    throw Problem("has the kinds " + this->Stored.text.valueOf({ "kinds" }) +
+      ": components of a voxel after the axes of space, and another axis before them; one of the "
+      "two "
+      "may be there");
+  }
   this->StepsAreLayers = hasSteps && first == 0 && axes.back().kind == "domain" &&
     !this->Stored.text.keyed("Segment0_ID").empty();
   header.dimensions = this->Dimensions;
-  header.components = this->TupleIsTime ? 1 : static_cast<int>(this->Tuple);
-  header.times = this->TupleIsTime      ? timesOf(axes[0], this->Stored.warnings)
-    : hasSteps && !this->StepsAreLayers ? timesOf(axes.back(), this->Stored.warnings)
-                                        : evenTimes(1, 1.0);
+  const bool isSeriesOfSteps = hasSteps && !this->StepsAreLayers && !this->StepsAreComponents;
+  header.components = this->TupleIsTime ? 1
+    : this->StepsAreComponents          ? static_cast<int>(this->Steps)
+                                        : static_cast<int>(this->Tuple);
+  header.times = this->TupleIsTime ? timesOf(axes[0], this->Stored.warnings)
+    : isSeriesOfSteps              ? timesOf(axes.back(), this->Stored.warnings)
+                                   : evenTimes(1, 1.0);
 }
 
 void TextHeaderVolume::takeSegments(VolumeHeader& header)
@@ -499,8 +551,9 @@ void TextHeaderVolume::takeSegments(VolumeHeader& header)
 
 double TextHeaderVolume::storedBytes(const VolumeHeader&) const
 {
-  const bool isOne = this->loads() == Loads::Part && !this->keepsSeries();
-  const double steps = isOne ? static_cast<double>(this->Steps) : 1.0;
+  const double steps = this->readsSteps() ? static_cast<double>(this->Steps)
+    : this->StepsAreComponents            ? 0.5 // a second time, side by side
+                                          : 1.0;
   return this->Numbers ? 0.0 : this->Stored.dataBytes() / steps;
 }
 
@@ -538,7 +591,7 @@ vtkSmartPointer<vtkDataArray> TextHeaderVolume::readAll(const Progress& progress
 void TextHeaderVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
   const bool isPart = this->loads() == Loads::Part;
-  const bool isOne = isPart && !this->keepsSeries(); // of the steps
+  const bool isOne = this->readsSteps();
   vtkSmartPointer<vtkDataArray> numbers =
     !isPart || this->Held == voxels.wanted ? this->Numbers : nullptr;
   if (!numbers)
@@ -555,7 +608,8 @@ void TextHeaderVolume::load(std::size_t volume, const Progress& progress, Stored
   {
     return;
   }
-  const auto steps = static_cast<vtkIdType>(isOne ? 1 : this->Steps);
+  numbers = this->StepsAreComponents ? sideBySide(numbers, this->Steps) : numbers;
+  const auto steps = static_cast<vtkIdType>(isOne || this->StepsAreComponents ? 1 : this->Steps);
   const vtkIdType count = numbers->GetNumberOfValues() / steps;
   const vtkSmartPointer<vtkDataArray> shown = steps > 1
     ? partOf(numbers, static_cast<vtkIdType>(this->stepOf(volume)) * count, count)

@@ -203,6 +203,34 @@ TEST(TextHeaderVolume, ColoursAreComponents)
   EXPECT_EQ(nrrd.values(), countedTo(24));
 }
 
+// The kind of the last axis says whether its numbers belong to one voxel.
+TEST(TextHeaderVolume, ComponentsMayBeTheLastAxis)
+{
+  const auto text = [](const std::string& kinds, const std::string& sizes = "2 2 2 3") {
+    const bool hasFive = sizes.size() > 7;
+    return "NRRD0005\ndimension: " + std::string(hasFive ? "5" : "4") + "\nsizes: " + sizes +
+      "\nspace: RAS\n" + Bytes + "kinds: " + kinds + "\nspace origin: (0,0,0)\n" +
+      "space directions: " + (hasFive ? "none " : "") + "(1,0,0) (0,1,0) (0,0,1) none\n\n" +
+      numbers(hasFive ? 48 : 24);
+  };
+  for (const char* kind : { "vector", "RGB-color", "3-color", "3-vector", "covariant-vector" })
+  {
+    writeFile("last.nrrd", text(std::string("space space space ") + kind));
+    FormatReading<NRRD> reading("last.nrrd");
+    EXPECT_EQ(reading.said(), "") << kind;
+    EXPECT_EQ(reading.reader->GetOutputInformation(0)->Length(
+                vtkStreamingDemandDrivenPipeline::TIME_STEPS()),
+      0);
+    ASSERT_EQ(reading.image()->GetNumberOfScalarComponents(), 3) << kind;
+    for (int i = 0; i < 24; ++i)
+    {
+      EXPECT_EQ(reading.values().at(i), 8 * (i % 3) + i / 3 + 1) << kind;
+    }
+  }
+  expectRefused<NRRD>("both.nrrd", text("list space space space vector", "2 2 2 2 3"),
+    "has the kinds list space space space vector: components of a voxel after the axes of space");
+}
+
 TEST(TextHeaderVolume, SidesAreKnownOnlyWhereTheFileSaysSo)
 {
   using brainshift::WorldAxes;
