@@ -83,14 +83,24 @@ std::string termsIn(const std::string& tags)
   return terms + (region == "^^~^^" || region == "~" ? "" : "~" + region);
 }
 
-// A whole number from a text; `otherwise` if it holds none.
-int wholeIn(const std::string& text, int otherwise)
+// The whole number under a key, such as LabelValue; `otherwise`, with a warning, if it is none.
+int wholeUnder(
+  const HeaderText& text, const std::string& key, int otherwise, std::vector<std::string>& warnings)
 {
-  const std::vector<double> numbers = numbersIn(text);
-  return numbers.size() == 1 &&
-      isWhole(numbers[0], std::numeric_limits<int>::min(), std::numeric_limits<int>::max())
-    ? static_cast<int>(numbers[0])
-    : otherwise;
+  const std::string words = text.keyed(key);
+  const std::vector<double> numbers = numbersIn(words);
+  if (numbers.size() == 1 &&
+    isWhole(numbers[0], std::numeric_limits<int>::min(), std::numeric_limits<int>::max()))
+  {
+    return static_cast<int>(numbers[0]);
+  }
+  if (!words.empty())
+  {
+    warnings.push_back(joined("has the ", key, " ", shownWords(words),
+      ", which is no whole number; it counts as ", otherwise, ", so that ",
+      "voxels may get the name of another segment; save it again in 3D Slicer"));
+  }
+  return otherwise;
 }
 
 // Names as a list may show them: on one line, and not too long. Letters beyond ASCII stay whole.
@@ -136,9 +146,27 @@ void requireOneEach(std::size_t segments, std::size_t layered, std::size_t compo
   }
 }
 
+// Voxels of a layer with the value of two segments could be of either.
+void warnOfTwins(const std::vector<Segment>& segments, std::vector<std::string>& warnings)
+{
+  std::map<std::pair<int, int>, const Segment*> known; // by layer and value
+  for (const Segment& segment : segments)
+  {
+    const auto [first, isNew] = known.insert({ { segment.layer, segment.label.value }, &segment });
+    if (!isNew)
+    {
+      warnings.push_back(joined("has the segments ", shownNames(first->second->label.name), " and ",
+        shownNames(segment.label.name), " in one layer, both with the LabelValue ",
+        segment.label.value, ", so that its voxels may be of either; give each segment a value of ",
+        "its own in 3D Slicer"));
+    }
+  }
+}
+
 // The segments of a header; none if it has none. One without a name gets its ID as the name.
 // `components`: layers of the file.
-std::vector<Segment> segmentsOf(const HeaderText& text, std::size_t components)
+std::vector<Segment> segmentsOf(
+  const HeaderText& text, std::size_t components, std::vector<std::string>& warnings)
 {
   std::vector<Segment> segments;
   std::size_t layered = 0; // segments that name their layer
@@ -153,13 +181,13 @@ std::vector<Segment> segmentsOf(const HeaderText& text, std::size_t components)
     Label label;
     const std::string name = text.keyed(prefix + "Name");
     label.name = name.empty() ? id : name;
-    label.value = wholeIn(text.keyed(prefix + "LabelValue"), 1);
+    label.value = wholeUnder(text, prefix + "LabelValue", 1, warnings);
     const std::string color = text.keyed(prefix + "Color");
     label.color = colorIn(color.empty() ? text.keyed(prefix + "DefaultColor") : color);
     label.terms = termsIn(text.keyed(prefix + "Tags"));
     const std::string layer = text.keyed(prefix + "Layer");
     layered += layer.empty() ? 0 : 1;
-    segments.push_back({ label, wholeIn(layer, 0) });
+    segments.push_back({ label, wholeUnder(text, prefix + "Layer", 0, warnings) });
   }
   if (layered < segments.size() && components > 1)
   {
@@ -169,6 +197,7 @@ std::vector<Segment> segmentsOf(const HeaderText& text, std::size_t components)
       segments[i].layer = static_cast<int>(i);
     }
   }
+  warnOfTwins(segments, warnings);
   return segments;
 }
 
@@ -517,7 +546,7 @@ void TextHeaderVolume::takeSegments(VolumeHeader& header)
 {
   this->ShownLayer = 0;
   const std::size_t layers = this->StepsAreLayers ? this->Steps : this->Tuple;
-  const std::vector<Segment> segments = segmentsOf(this->Stored.text, layers);
+  const std::vector<Segment> segments = segmentsOf(this->Stored.text, layers, header.warnings);
   const bool hasLayers =
     !segments.empty() && layers > 1 && (this->Steps == 1 || this->StepsAreLayers);
   const int count = hasLayers ? static_cast<int>(layers) : 0;

@@ -182,6 +182,30 @@ TEST(TextHeaderSaid, SegmentsWithoutLayers)
     "has 3 segments in 3 layers, of which 2 name no layer");
 }
 
+TEST(TextHeaderSaid, SegmentsWhoseValuesTellNothing)
+{
+  const auto said = [](const std::string& value, const std::string& other) {
+    return saidOf<NRRD>("values.seg.nrrd",
+      nrrd(Placed + "Segment0_ID:=a\nSegment0_Name:=tumour\nSegment0_LabelValue:=" + value +
+        "\nSegment0_Layer:=0\nSegment1_ID:=b\nSegment1_Name:=vein\nSegment1_LabelValue:=3\n" +
+        "Segment1_Layer:=" + other + "\n"));
+  };
+  EXPECT_EQ(said("2", "0"), "");
+  EXPECT_EQ(said("3", "1"), ""); // in another layer
+  for (const std::string value : { "two", "2.5", "2 3" })
+  {
+    EXPECT_NE(said(value, "0")
+                .find("has the Segment0_LabelValue " + value +
+                  ", which is no whole number; it counts as 1"),
+      std::string::npos);
+  }
+  EXPECT_NE(
+    said("2", "x").find("has the Segment1_Layer x, which is no whole number"), std::string::npos);
+  EXPECT_NE(said("3", "0").find("has the segments tumour and vein in one layer, both with the "
+                                "LabelValue 3"),
+    std::string::npos);
+}
+
 // Recordings of PLUS and 3D Slicer: each picture has a place of its own.
 TEST(TextHeaderSaid, PicturesOfATrackedProbeAreNoVolume)
 {
