@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <system_error>
@@ -341,12 +342,42 @@ std::string differencesOf(
   return names;
 }
 
+constexpr double LeastCosine = 0.94; // of 20 degrees
+
+// Whether the axes of two images are nearly the same.
+bool areAlongSameAxes(const DICOMFrame& a, const DICOMFrame& b)
+{
+  return glm::dot(a.alongRow, b.alongRow) > LeastCosine &&
+    glm::dot(a.alongColumn, b.alongColumn) > LeastCosine;
+}
+
+// Whether they are in another direction or order: a slice that is stored mirrored or rotated.
+bool areMirrored(const DICOMFrame& a, const DICOMFrame& b)
+{
+  const auto isAlong = [](const glm::dvec3& one, const glm::dvec3& other) {
+    return std::abs(glm::dot(one, other)) > LeastCosine;
+  };
+  return !areAlongSameAxes(a, b) &&
+    ((isAlong(a.alongRow, b.alongRow) && isAlong(a.alongColumn, b.alongColumn)) ||
+      (isAlong(a.alongRow, b.alongColumn) && isAlong(a.alongColumn, b.alongRow)));
+}
+
+// A series whose places count along the normal of another image.
+DICOMSeries alongAxesOf(const DICOMFrame& frame, DICOMSeries series)
+{
+  for (DICOMFrame& one : series.frames)
+  {
+    one.alongRow = frame.alongRow;
+    one.alongColumn = frame.alongColumn;
+  }
+  return series;
+}
+
 // Whether slices of one volume may have come apart. Planes that lean much were meant so, as were
 // localizers and images of another type at the same positions.
 bool areParted(
   const std::vector<DICOMFile>& files, const DICOMSeries& shown, const DICOMSeries& other)
 {
-  constexpr double LeastCosine = 0.94; // of 20 degrees
   const DICOMFrame& a = shown.frames.front();
   const DICOMFrame& b = other.frames.front();
   const DICOMFile& file = files[b.file];
@@ -355,8 +386,9 @@ bool areParted(
   };
   return file.series == files[a.file].series && isLocalizer(a) == isLocalizer(b) &&
     file.problem.empty() && !file.standsAlone && !files[a.file].standsAlone && a.isPlaced &&
-    b.isPlaced && glm::dot(a.alongRow, b.alongRow) > LeastCosine &&
-    glm::dot(a.alongColumn, b.alongColumn) > LeastCosine && shareNoPlace(shown, other);
+    b.isPlaced &&
+    (areMirrored(a, b) ? shareNoPlace(shown, alongAxesOf(a, other))
+                       : areAlongSameAxes(a, b) && shareNoPlace(shown, other));
 }
 
 std::string noImageSentence(const DICOMFile& file)
@@ -492,7 +524,10 @@ std::vector<std::string> partedNotes(const DICOMFolder& folder, const DICOMSerie
     if (&other != &chosen && !names.empty() && areParted(folder.files, chosen, other))
     {
       notes.push_back("lacks images at other positions, which are another entry of its list: " +
-        std::to_string(other.frames.size()) + " with another " + names);
+        std::to_string(other.frames.size()) + " with another " + names +
+        (areMirrored(shown, first) ? "; they are stored mirrored or rotated within their plane, so "
+                                     "no slice is missing there"
+                                   : ""));
     }
   }
   return notes;

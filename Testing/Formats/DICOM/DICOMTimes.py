@@ -252,6 +252,18 @@ def test_slices_that_are_another_entry_are_said():
                     f"its list: 2 with another {name}")
 
 
+def test_a_slice_that_is_stored_mirrored_is_said():
+    row, column = numpy.array((1.0, 0, 0)), numpy.array((0, 1.0, 0))
+    for along_row, along_column in ((-row, column), (row, -column), (-row, -column),
+                                    (column, row), (-column, row)):
+        def change(image, index, axes=(along_row, along_column)):
+            if index == 2:
+                image.ImageOrientationPatient = [*axes[0], *axes[1]]
+        told = read(write_slices(folder("mirrored"), numbered(5), change=change))[1]
+        assert_says(told, "lacks images at other positions, which are another entry of its list: 1 "
+                    "with another ImageOrientationPatient; they are stored mirrored or rotated")
+
+
 def test_entries_that_are_meant_are_not_said():
     path = write_slices(folder("meant"), numbered())
     write_slices(path, numbered(start=1000), start=100, change=lambda image, _: setattr(
