@@ -179,6 +179,7 @@ std::optional<ElectrodeFrame> electrodeFrame(const std::string& tableName, Landm
     throwIfAny(object.is_object() ? "" : "is not good JSON");
     electrodes.axes = axesIn(object, isOptodes, list);
     electrodes.mm = unitIn(object, isOptodes);
+    electrodes.isSaid = true;
   });
   return electrodes;
 }

@@ -15,6 +15,7 @@ struct ElectrodeFrame
 {
   double mm = 1.0;              ///< of one unit
   std::optional<FileAxes> axes; ///< none: not said, or not known
+  bool isSaid = false;          ///< a coordsystem.json says so
 };
 
 /**

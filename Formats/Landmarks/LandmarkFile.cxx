@@ -151,6 +151,8 @@ LandmarkList readLandmarkFile(const std::string& fileName, int volume, const Tab
     const std::optional<ElectrodeFrame> beside = electrodeFrame(fileName, list);
     choice.table.mm = beside ? beside->mm : table.mm;
     choice.table.axes = beside && beside->axes ? *beside->axes : table.axes;
+    choice.table.isSaidBeside = beside && beside->isSaid;
+    choice.table.hasAxesBeside = beside && beside->axes;
     format.read(text, choice, list);
     noteSmall(list);
   });

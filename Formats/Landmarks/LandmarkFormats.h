@@ -74,6 +74,8 @@ struct TableRule
   FileAxes axes = FileAxes::RAS;    ///< of columns that are called x, y and z
   std::vector<std::string> columns; ///< names of those of the position; none: what they are called
   double mm = 1.0;                  ///< of one unit, if no name of a column tells it
+  bool isSaidBeside = false;        ///< a coordsystem.json says the unit, and perhaps the axes
+  bool hasAxesBeside = false;       ///< it says the axes
 };
 
 /** What the reader of a file is told beside its text. Each format takes what concerns it. */

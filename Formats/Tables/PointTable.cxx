@@ -371,6 +371,37 @@ glm::dvec3 placed(const glm::dvec3& written, const PointColumns& columns,
   return inAxes(axes, position);
 }
 
+// What a table says of its positions counts before the coordsystem.json beside it, which may be
+// about another version of the table.
+void noteContradiction(const SaidOfPositions& said, const PointColumns& columns,
+  const TableRule& rule, LandmarkList& list)
+{
+  bool isOtherUnit = false;
+  bool areOtherAxes = false;
+  double mm = rule.mm;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const SaidOfPositions all = agreed({ columns.axes, columns.mm[axis] }, said);
+    isOtherUnit = isOtherUnit || (rule.isSaidBeside && all.mm && *all.mm != rule.mm);
+    mm = isOtherUnit && mm == rule.mm ? *all.mm : mm;
+    areOtherAxes = areOtherAxes || (rule.hasAxesBeside && all.axes && *all.axes != rule.axes);
+  }
+  const std::string end = " by its coordsystem.json; what the table says counts. Correct the one "
+                          "that is wrong";
+  const std::string unit =
+    joined("has positions in units of ", mm, " mm by its own words, and of ", rule.mm, " mm", end);
+  const bool isRAS = rule.axes == FileAxes::RAS;
+  const std::string axes = joined("has positions along ", isRAS ? "LPS" : "RAS",
+    " by its own words, and along ", isRAS ? "RAS" : "LPS", end);
+  for (const auto& [isOther, note] : { std::pair{ isOtherUnit, unit }, { areOtherAxes, axes } })
+  {
+    if (isOther && std::find(list.notes.begin(), list.notes.end(), note) == list.notes.end())
+    {
+      list.notes.push_back(note);
+    }
+  }
+}
+
 // What the name of the column of deviations says of their unit. Without one they have that of the
 // positions, from which they are.
 std::optional<double> unitOfDeviations(const Columns& columns, LandmarkList& list)
@@ -472,6 +503,7 @@ void readPointTable(const std::string& text, const LandmarkChoice& choice, Landm
     withBeginning(beginningAt(where), [&] {
       hasPlace = readPoint(values, columns, point);
       const SaidOfPositions said = agreed(comments, saidByRecord(values, columns, list));
+      noteContradiction(said, columns.position, rule, list);
       point.position = placed(point.position, columns.position, said, rule);
       point.deviation *= mmOfDeviation(columns, said, rule);
     });

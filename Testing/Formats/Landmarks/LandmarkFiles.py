@@ -503,6 +503,27 @@ def test_a_coordsystem_above_its_table_counts_in_a_data_set():
     assert "says the unit percent" in refusal(table, "name\tx\ty\tz\nLA1\t1\t2\t3\n")
 
 
+def test_a_coordsystem_that_contradicts_its_table_is_said():
+    table = "sub-09_electrodes.tsv"
+    counts = "what the table says counts"
+    for head, unit, system, words in (
+            ("x_cm\ty_cm\tz_cm", "m", "ScanRAS",
+             "units of 10 mm by its own words, and of 1000 mm by its coordsystem.json"),
+            ("x_cm\ty_cm\tz_cm", "cm", "ScanRAS", ""), ("x\ty\tz", "m", "ScanRAS", ""),
+            ("l\tp\ts", "mm", "ScanRAS", "along LPS by its own words, and along RAS"),
+            ("l\tp\ts", "mm", "ScanLPS", ""), ("l\tp\ts", "mm", "Other", "")):
+        written("sub-09_coordsystem.json", json.dumps({
+            "iEEGCoordinateSystem": system, "iEEGCoordinateUnits": unit}))
+        with messages() as said:
+            brainshift.read_points(written(table, f"name\t{head}\nA\t1\t2\t3\nB\t4\t5\t6\n"))
+        assert said.text.count(counts) == bool(words) and words in said.text, (head, said.text)
+    written("sub-09_coordsystem.json", json.dumps({
+        "iEEGCoordinateSystem": "ScanRAS", "iEEGCoordinateUnits": "mm"}))
+    with messages() as said:
+        brainshift.read_points(written(table, "name\tx\ty\tz\tunits\nA\t1\t2\t3\tm\n"))
+    assert "units of 1000 mm by its own words, and of 1 mm" in said.text, said.text
+
+
 def test_a_head_of_less_than_a_millimetre_is_doubted():
     for count, words in ((4, "has 4 points within"), (3, "")):
         rows = [f"e{i},{0.01 * i},{0.02 * i},0.1" for i in range(count)]
