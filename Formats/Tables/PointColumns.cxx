@@ -139,6 +139,35 @@ Meaning meaningOf(const std::string& written)
   return meaning;
 }
 
+// Names of one axis that have the same words beside it: a name that is there twice, or several
+// positions of one frame, such as x y z and x_mm y_mm z_mm, of which none counts before the other.
+void requireOneEach(const std::array<Names, 3>& names)
+{
+  const auto sameName = [](const std::string& one, const std::string& other) {
+    return lowerCase(trimmed(one)) == lowerCase(trimmed(other));
+  };
+  for (const Names& axis : names)
+  {
+    throwIfAny(axis.size() > 1 && sameName(axis[0], axis[1])
+        ? "names the column " + shownWords(axis[0]) + " twice"
+        : "");
+  }
+  const auto listed = [&](std::size_t i) {
+    return shownWords(names[0][i] + " " + names[1][i] + " " + names[2][i]);
+  };
+  const bool areSeveral =
+    std::all_of(names.begin(), names.end(), [](const Names& axis) { return axis.size() > 1; });
+  throwIfAny(areSeveral
+      ? "has several positions: " + listed(0) + ", and " + listed(1) + std::string("; ") + Choose
+      : "");
+  for (const Names& axis : names)
+  {
+    throwIfAny(axis.size() > 1 ? "has two columns for one axis of its positions, " +
+          shownWords(axis[0]) + " and " + shownWords(axis[1]) + "; " + Choose
+                               : "");
+  }
+}
+
 // The columns of one kind that share all other words, as a set for each of these.
 void addSets(const Names& header, std::size_t kind, std::vector<PointColumns>& sets)
 {
@@ -174,10 +203,7 @@ void addSets(const Names& header, std::size_t kind, std::vector<PointColumns>& s
     {
       continue;
     }
-    for (const Names& axis : names)
-    {
-      throwIfAny(axis.size() > 1 ? "names the column " + shownWords(axis[0]) + " twice" : "");
-    }
+    requireOneEach(names);
     set.axes = own;
     sets.push_back(set);
   }

@@ -456,6 +456,19 @@ def refused_tables():
         assert words in refusal("walk.csv", "i;j;k\n1;2;3\n", columns=columns)
 
 
+def test_two_names_of_one_axis_are_no_name_that_is_there_twice():
+    row = ",1,2,3,4,5,6\n"
+    for names, words in (
+            ("x,y,z,x_mm,y_mm,z_mm", "has several positions: x y z, and x_mm y_mm z_mm; name the"),
+            ("x_mm,y_mm,z_mm,x,y,z", "has several positions: x_mm y_mm z_mm, and x y z; name the"),
+            ("x,x_mm,y,z,a,b", "has two columns for one axis of its positions, x and x_mm; name"),
+            ("x,y,z,Y,a,b", "names the column y twice")):
+        assert words in refusal("twins.csv", f"name,{names}\np{row}"), names
+    text = f"name,x,y,z,x_mm,y_mm,z_mm\np{row}"
+    found = brainshift.read_points(written("twins.csv", text), columns=["x_mm", "y_mm", "z_mm"])
+    assert found.positions.tolist() == [[4, 5, 6]]
+
+
 def test_words_of_the_columns_that_a_caller_names_count():
     for names, right, unknown in (
             ("native_x_cm,native_y_cm,native_z_cm", (10, 20, 30), "native"),
