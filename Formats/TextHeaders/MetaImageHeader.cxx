@@ -310,6 +310,12 @@ void readScale(TextHeader& header)
     }
     *number = text.empty() ? *number : found[0];
   }
+  // Of 0 every voxel would have the same value. It stands for no scaling, as in NIfTI.
+  if (header.slope == 0.0)
+  {
+    header.slope = 1.0;
+    header.warnings.emplace_back("has the ElementToIntensityFunctionSlope 0, which counts as 1");
+  }
 }
 
 void readMetaStorage(const std::string& fileName, TextHeader& header)

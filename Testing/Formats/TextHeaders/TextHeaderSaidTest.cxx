@@ -130,6 +130,25 @@ TEST(TextHeaderSaid, KeysOfMetaImageThatAreAlmostThoseOfTheFormat)
     "");
 }
 
+TEST(TextHeaderSaid, SlopesThatAreNone)
+{
+  const std::string slope = "ElementToIntensityFunctionSlope";
+  for (const std::string zero : { "0", "0.0", "-0" })
+  {
+    const std::string bytes =
+      metaImage({ { slope, zero }, { "ElementToIntensityFunctionOffset", "2" } });
+    expectSaid<Meta>("slope.mha", bytes, "has the " + slope + " 0, which counts as 1");
+    FormatReading<Meta> reading("slope.mha");
+    EXPECT_EQ(reading.values().at(0), '!' + 2.0);
+    EXPECT_EQ(reading.values().at(7), '(' + 2.0);
+  }
+  for (const std::string none : { "nan", "inf", "two", "1 2" })
+  {
+    expectRefused<Meta>("slope.mha", metaImage({ { slope, none } }),
+      "has the " + slope + " " + none + "; it must be a finite number");
+  }
+}
+
 TEST(TextHeaderSaid, DistancesThatAreNotThere)
 {
   expectSaid<Meta>("bare.mha", metaImage({ { "ElementSpacing", "" } }),
