@@ -207,10 +207,12 @@ double countedDecimal(const DICOMDataSet& set, const DICOMName& name, double mis
 std::optional<double> toldSeconds(
   const std::optional<double>& seconds, const std::string& text, const char* keyword, Notes& notes)
 {
-  if (!seconds && !text.empty())
+  const std::string begin = joined("has the ", keyword, " ");
+  const bool isSaid = std::any_of(notes.begin(), notes.end(),
+    [&](const std::string& note) { return note.compare(0, begin.size(), begin) == 0; });
+  if (!seconds && !text.empty() && !isSaid) // once, of many frames
   {
-    addNote(notes,
-      joined("has the ", keyword, " ", plainText(text), ", which is no time. It does not count"));
+    addNote(notes, begin + plainText(text) + ", which is no time. It does not count");
   }
   return seconds;
 }
@@ -318,24 +320,29 @@ private:
   const Items& PerFrame;
 };
 
-void readFrameMoment(const Groups& groups, int index, DICOMMoment& moment)
+void readFrameMoment(const Groups& groups, int index, DICOMMoment& moment, Notes& notes)
 {
   groups.with(index, 0x00209111, [&](const DICOMDataSet& content) {
     moment.temporalPosition = wholeOf(content, 0x00209128, 0.0);
-    for (const DICOMTag tag : { 0x00189074, 0x00189151 })
+    std::optional<double> acquired;
+    for (const DICOMName& name : { DICOMName{ 0x00189074, "FrameAcquisitionDateTime" },
+           DICOMName{ 0x00189151, "FrameReferenceDateTime" } })
     {
-      if (const std::optional<double> acquired = secondsOf(textOf(content, tag)))
-      {
-        takeAcquired(*acquired, false, moment);
-        break;
-      }
+      const std::string text = acquired ? std::string() : textOf(content, name.tag);
+      acquired = acquired ? acquired : toldSeconds(secondsOf(text), text, name.keyword, notes);
+    }
+    if (acquired)
+    {
+      takeAcquired(*acquired, false, moment);
     }
   });
   groups.with(index, 0x00209310,
     [&](const DICOMDataSet& time) { moment.offsetS = doubleOf(time, 0x0020930d, 0.0); });
   groups.with(index, 0x00189112, [&](const DICOMDataSet& timing) {
-    moment.intervalS = 1e-3 * decimalOf(timing, 0x00180080, 1e3 * moment.intervalS);
-    moment.settings[2] = decimalOf(timing, 0x00181314, moment.settings[2]);
+    moment.intervalS = 1e-3 *
+      countedDecimal(timing, { 0x00180080, "RepetitionTime" }, 1e3 * moment.intervalS, notes);
+    moment.settings[2] =
+      countedDecimal(timing, { 0x00181314, "FlipAngle" }, moment.settings[2], notes);
   });
   groups.with(index, 0x00189118,
     [&](const DICOMDataSet& heart) { moment.triggerMs = doubleOf(heart, 0x00209153, 0.0); });
@@ -345,7 +352,7 @@ void readFrameMoment(const Groups& groups, int index, DICOMMoment& moment)
     moment.settings[1] = doubleOf(modifier, 0x00189079, moment.settings[1]);
   });
   groups.with(index, 0x00189325, [&](const DICOMDataSet& rays) {
-    moment.settings[3] = decimalOf(rays, 0x00180060, moment.settings[3]);
+    moment.settings[3] = countedDecimal(rays, { 0x00180060, "KVP" }, moment.settings[3], notes);
   });
   groups.with(index, 0x00189117,
     [&](const DICOMDataSet& diffusion) { moment.bValue = doubleOf(diffusion, 0x00189087, 0.0); });
@@ -392,7 +399,7 @@ bool readFunctionalGroups(const Groups& groups, int index, DICOMFrame& frame, No
     }
   }
   frame.isPlaced = hasPosition && hasOrientation;
-  readFrameMoment(groups, index, frame.moment);
+  readFrameMoment(groups, index, frame.moment, notes);
   readFrameType(groups, index, frame);
   groups.with(index, 0x0062000a, [&](const DICOMDataSet& segment) {
     frame.segment = static_cast<int>(std::min(wholeOf(segment, 0x0062000b, 0.0), 65536.0));

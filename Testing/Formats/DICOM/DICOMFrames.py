@@ -47,6 +47,21 @@ def test_times_of_frames_become_time_steps():
         numpy.testing.assert_array_equal(numpy.sort(read_now), right.ravel())
 
 
+def test_a_time_of_a_frame_that_is_none_is_said():
+    for name, value in (("FrameAcquisitionDateTime", "2024xx"),
+                        ("FrameReferenceDateTime", "20240229251010")):
+        image = enhanced(numbered())
+        for i, groups in enumerate(image.PerFrameFunctionalGroupsSequence):
+            content = groups.FrameContentSequence[0]
+            for other in ("FrameAcquisitionDateTime", "FrameReferenceDateTime"):
+                if other in content:
+                    delattr(content, other)
+            setattr(content, name, value + str(i % 2))
+        told = read(written("no_time.dcm", image))[1]
+        assert_says(told, f"has the {name} {value}0, which is no time. It does not count")
+        assert told.count("which is no time") == 1, told
+
+
 def test_each_frame_has_its_rescaling():
     voxels = numbered(4)
     path = written("frame-scales", enhanced(
