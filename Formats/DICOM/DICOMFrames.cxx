@@ -230,15 +230,17 @@ void readAcquired(const DICOMDataSet& set, DICOMMoment& moment, Notes& notes)
   const std::string text = textOf(set, 0x0008002a);
   const std::optional<double> told =
     toldSeconds(secondsOf(text), text, "AcquisitionDateTime", notes);
-  const auto of = [&](DICOMTag dateTag, DICOMTag timeTag, const char* keyword) {
+  Notes unused; // of what would not have counted
+  const auto of = [&](DICOMTag dateTag, DICOMTag timeTag, const char* keyword, Notes& said) {
     const std::string date = textOf(set, dateTag);
     const std::string time = textOf(set, timeTag);
     const std::string both = time.empty() ? std::string() : date.empty() ? time : date + " " + time;
-    return toldSeconds(secondsOf(date, time), both, keyword, notes);
+    return toldSeconds(secondsOf(date, time), both, keyword, said);
   };
   const std::optional<double> acquired =
-    told ? told : of(0x00080022, 0x00080032, "AcquisitionTime");
-  const std::optional<double> content = of(0x00080023, 0x00080033, "ContentTime");
+    told ? told : of(0x00080022, 0x00080032, "AcquisitionTime", notes);
+  const std::optional<double> content =
+    of(0x00080023, 0x00080033, "ContentTime", acquired ? unused : notes);
   if (acquired || content)
   {
     takeAcquired(acquired ? *acquired : *content, !acquired, moment);
@@ -263,7 +265,6 @@ void readMoment(const DICOMDataSet& set, DICOMMoment& moment, Notes& notes)
   moment.instance = number(0x00200013, "InstanceNumber", 0.0);
   moment.intervalS =
     1e-3 * number(0x00200110, "TemporalResolution", number(0x00180080, "RepetitionTime", 0.0));
-  readAcquired(set, moment, notes);
   moment.referenceS = 1e-3 * number(0x00541300, "FrameReferenceTime", 0.0);
 }
 
@@ -334,6 +335,7 @@ void readFrameMoment(const Groups& groups, int index, DICOMMoment& moment, Notes
     if (acquired)
     {
       takeAcquired(*acquired, false, moment);
+      moment.isTimedByFrame = true;
     }
   });
   groups.with(index, 0x00209310,
@@ -618,6 +620,8 @@ void readDICOMFrames(const DICOMDataSet& set, int count, std::vector<DICOMFrame>
   DICOMFrame frame;
   const bool isMeasured = readCommon(set, frame, notes);
   const Groups groups(set);
+  Notes notesOfTime; // for frames without a time of their own
+  readAcquired(set, frame.moment, notesOfTime);
   if (groups.frames() != 0 && groups.frames() != static_cast<std::size_t>(count))
   {
     throw Problem("announces " + std::to_string(count) + " frames (NumberOfFrames) and describes " +
@@ -629,6 +633,11 @@ void readDICOMFrames(const DICOMDataSet& set, int count, std::vector<DICOMFrame>
     DICOMFrame& one = all[static_cast<std::size_t>(i)];
     one.frame = i;
     const bool hasOwn = groups.frames() > 0 && readFunctionalGroups(groups, i, one, notes);
+    if (!one.moment.isTimedByFrame)
+    {
+      std::for_each(notesOfTime.begin(), notesOfTime.end(),
+        [&](const std::string& note) { addNote(notes, note); });
+    }
     if (!isMeasured && !hasOwn)
     {
       guessSpacing(set, one, notes);

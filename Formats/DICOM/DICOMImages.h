@@ -27,14 +27,15 @@ struct DICOMMoment
   double bValue = 0.0;           ///< diffusion weighting, s/mm^2
   /// Times of echo and inversion in ms, flip angle in degrees, voltage of the tube in kV.
   std::array<double, 4> settings{};
-  double acquiredS = 0.0;     ///< since 1970, or since midnight
-  double referenceS = 0.0;    ///< FrameReferenceTime of PET
-  double instance = 0.0;      ///< number of the image in its series
-  double intervalS = 0.0;     ///< from one volume to the next: resolution or repetition time
-  double offsetS = 0.0;       ///< of the point in time, from the first one
-  bool isTimed = false;       ///< whether the file says `acquiredS`
-  bool isContentTime = false; ///< `acquiredS` is when the image was made: no other time is there
-  double contentS = -1.0;     ///< when the image was made, since 1970; below 0: not known
+  double acquiredS = 0.0;      ///< since 1970, or since midnight
+  double referenceS = 0.0;     ///< FrameReferenceTime of PET
+  double instance = 0.0;       ///< number of the image in its series
+  double intervalS = 0.0;      ///< from one volume to the next: resolution or repetition time
+  double offsetS = 0.0;        ///< of the point in time, from the first one
+  bool isTimed = false;        ///< whether the file says `acquiredS`
+  bool isTimedByFrame = false; ///< whether the frame says it itself, and not its file for all
+  bool isContentTime = false;  ///< `acquiredS` is when the image was made: no other time is there
+  double contentS = -1.0;      ///< when the image was made, since 1970; below 0: not known
 
   std::array<double, 12> sorted() const
   {

@@ -50,7 +50,7 @@ def test_times_of_frames_become_time_steps():
 def test_a_time_of_a_frame_that_is_none_is_said():
     for name, value in (("FrameAcquisitionDateTime", "2024xx"),
                         ("FrameReferenceDateTime", "20240229251010")):
-        image = enhanced(numbered())
+        image = enhanced(numbered()[None])
         for i, groups in enumerate(image.PerFrameFunctionalGroupsSequence):
             content = groups.FrameContentSequence[0]
             for other in ("FrameAcquisitionDateTime", "FrameReferenceDateTime"):

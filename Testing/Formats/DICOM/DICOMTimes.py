@@ -2,6 +2,8 @@
 # Proves that series that go over midnight keep their order and times, with or without a date, that
 # PET takes the times of its frames, that triggers which differ from slice to slice mix no volumes,
 # and that slices that are parted from their volume are said.
+import os
+
 import numpy
 from brainshift_testing import assert_says, load_plugin, messages, output, run_tests
 from dicom_testing import SAGITTAL, enhanced, folder, numbered, scalars, write_slices
@@ -195,6 +197,32 @@ def test_what_is_no_time_is_said():
         reader, told = read(series(change, 3))
         assert_says(told, f"has the {name} {wrong}, which is no time. It does not count")
         assert_times(reader, (0, 1, 2))
+
+
+def test_a_time_that_would_not_have_counted_needs_no_word():
+    def change(image, t, index):
+        image.ContentDate, image.ContentTime = "20240229", "xx"
+        if t < 3:
+            image.AcquisitionTime = f"10101{t}"
+    reader, told = read(series(change, 3))
+    assert not told, told
+    assert_times(reader, (0, 1, 2))
+
+    def alone(image, t, index):
+        image.ContentTime = "xx"
+        if "AcquisitionTime" in image:
+            del image.AcquisitionTime
+    assert_says(read(series(alone, 3))[1], "has the ContentTime xx, which is no time")
+    image = enhanced(numbered(4)[None])
+    image.ContentTime = "xx"
+    path = os.path.join(folder("own-times"), "frames.dcm")
+    image.save_as(path, write_like_original=False)
+    told = read(path)[1]
+    assert not told, told
+    for groups in image.PerFrameFunctionalGroupsSequence:
+        del groups.FrameContentSequence[0].FrameAcquisitionDateTime
+    image.save_as(path, write_like_original=False)
+    assert_says(read(path)[1], "has the ContentTime xx, which is no time")
 
 
 def test_triggers_of_a_beating_heart_are_times():
