@@ -91,6 +91,20 @@ std::vector<std::string> wordsIn(std::string_view text)
   return words;
 }
 
+std::string withLineFeeds(std::string text)
+{
+  const std::size_t first = text.find_first_of("\r\n");
+  const std::size_t after =
+    first == std::string::npos ? first : text.find_first_not_of('\r', first);
+  const bool isOld = first != std::string::npos && text[first] == '\r' &&
+    (after == std::string::npos || text[after] != '\n');
+  if (isOld)
+  {
+    std::replace(text.begin(), text.end(), '\r', '\n');
+  }
+  return text;
+}
+
 std::string lowerCase(std::string text)
 {
   for (char& letter : text)

@@ -40,6 +40,12 @@ bool endsWith(const std::string& text, const std::string& end);
 /** How many letters must be changed, added or left out to make one text of the other. */
 std::size_t lettersBetween(const std::string& one, const std::string& other);
 
+/**
+ * Text whose lines end with a line feed. Where the first line ends with carriage returns alone, as
+ * old Macs wrote them, each of them becomes one; no byte moves.
+ */
+std::string withLineFeeds(std::string text);
+
 /** Words of a file as an error may show them: printable, and not too many. */
 std::string shownWords(const std::string& words);
 

@@ -136,7 +136,8 @@ void noteSmall(LandmarkList& list)
 bool isLandmarkFile(const std::string& fileName)
 {
   const LandmarkFormat* format = formatByEnding(landmarkFormats(), fileName);
-  return format && format->looksLike(withoutMark(readBeginning(fileName, Beginning)));
+  return format &&
+    format->looksLike(withLineFeeds(withoutMark(readBeginning(fileName, Beginning))));
 }
 
 LandmarkList readLandmarkFile(const std::string& fileName, int volume, const TableRule& table)
@@ -146,7 +147,8 @@ LandmarkList readLandmarkFile(const std::string& fileName, int volume, const Tab
   constexpr const char* OtherFile =
     "save it again in the program that made it, or as a table (.csv) with columns r, a, s";
   withWayOut("Landmark file " + fileName + " ", OtherFile, [&] {
-    const std::string text = utf8Of(readPlainText(fileName, LongestText), format, list);
+    const std::string text =
+      utf8Of(withLineFeeds(readPlainText(fileName, LongestText)), format, list);
     LandmarkChoice choice{ volume, table };
     const std::optional<ElectrodeFrame> beside = electrodeFrame(fileName, list);
     choice.table.mm = beside ? beside->mm : table.mm;

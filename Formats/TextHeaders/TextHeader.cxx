@@ -320,7 +320,7 @@ void readHeaderText(const std::string& fileName, HeaderText& text)
 {
   text = HeaderText();
   requirePlainFile(fileName);
-  const std::string start = readStart(fileName);
+  const std::string start = withLineFeeds(readStart(fileName));
   text.isNRRD = start.compare(0, 4, "NRRD") == 0;
   if (!splitLines(start, text))
   {

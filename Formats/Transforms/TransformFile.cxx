@@ -37,11 +37,13 @@ std::string readAll(const std::string& fileName)
   requireMemory(ofText);
   std::string bytes = readBeginning(fileName, size);
   throwIfAny(bytes.size() == size ? "" : "cannot be read to its end");
-  const auto words = std::count_if(bytes.begin(), bytes.end(),
-    [](char letter) { return letter == ' ' || letter == '\t' || letter == '\n'; });
+  const auto words = std::count_if(bytes.begin(), bytes.end(), [](char letter) {
+    return letter == ' ' || letter == '\t' || letter == '\n' || letter == '\r';
+  });
   constexpr double ofWord = 160.0; // as a string, a copy of it and a number, while lists grow
   requireMemory(ofText + ofWord * static_cast<double>(words));
-  return bytes;
+  const bool isText = bytes.find('\0') == std::string::npos; // binary files of ITK have some
+  return isText ? withLineFeeds(std::move(bytes)) : bytes;
 }
 
 void addField(DirectedField field, PointTransform& transform)

@@ -136,7 +136,7 @@ def test_tables():
     rows = [["Name", "Y (mm)", "x", "Z", "TIME", "Deviation"],
             ["a", "2", "1", "3", "0.5", "0.25"], ["b", "5", "+4", "6e0", "", "1e-2"]]
     for separator in (",", ";", "\t"):
-        for end in ("\n", "\r\n"):
+        for end in ("\n", "\r\n", "\r"):
             for mark in ("", "\ufeff"):
                 text = mark + "# a comment\n" + "".join(separator.join(row) + end for row in rows)
                 points = brainshift.read_points(written("table.csv", text))

@@ -3,6 +3,7 @@
 // those of the format are refused by name, and that a spacing that is not there is said.
 #include "Testing/Formats/Volumes/VolumeFormatTesting.h"
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -128,6 +129,24 @@ TEST(TextHeaderSaid, KeysOfMetaImageThatAreAlmostThoseOfTheFormat)
   EXPECT_EQ(saidOf<Meta>("of_nifti.mha", // ITK copies the header of NIfTI
               metaImage({ { "toffset", "0" }, { "vox_offset", "352" }, { "scl_slope", "1" } })),
     "");
+}
+
+// As old Macs wrote them.
+TEST(TextHeaderSaid, LinesMayEndWithCarriageReturns)
+{
+  const auto expectRead = [](auto&& reading) {
+    EXPECT_EQ(reading.said(), "");
+    ASSERT_EQ(reading.image()->GetNumberOfPoints(), 8);
+    EXPECT_EQ(reading.values().at(7), '(');
+  };
+  const auto old = [](std::string text) {
+    std::replace(text.begin(), text.end(), '\n', '\r');
+    return text;
+  };
+  writeFile("old.mha", old(metaImage({})));
+  expectRead(FormatReading<Meta>("old.mha"));
+  writeFile("old.nrrd", old(nrrd(Placed)));
+  expectRead(FormatReading<NRRD>("old.nrrd"));
 }
 
 TEST(TextHeaderSaid, SlopesThatAreNone)

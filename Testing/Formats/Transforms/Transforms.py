@@ -72,6 +72,8 @@ def test_itk_linear_transforms():
         assert largest(transform.map(POINTS), right) < NEAR, kind
         assert largest(POINTS @ matrix[:3, :3].T + matrix[:3, 3], right) < NEAR, kind
         assert largest(right, POINTS) > 1.0, kind
+        old = write("old.tfm", itk_text((kind, parameters, fixed)).replace("\n", "\r"))
+        assert largest(brainshift.read_transform(old).map(POINTS), right) < NEAR, kind
     # A versor is a similarity of scale 1, without the scale.
     versor = write("versor.tfm", itk_text(("VersorRigid3DTransform", SIMILAR[1][:6], CENTRE)))
     transform = brainshift.read_transform(versor)
