@@ -14,6 +14,7 @@ from brainshift_testing import assert_says, data, load_plugin, messages, run_tes
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from brainshift import rolefiles  # noqa: E402
+from landmark_testing import refusal, written  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 
 AFIDS = data("afids-colin27", "sub-Colin27_afids.fcsv")
@@ -21,23 +22,6 @@ RESECT = data("resect", "Case1-MRI-beforeUS.tag")
 LABELS = ['Straße, "links"', "後頭葉", "", "#1; a\tb"]
 PLACES = numpy.array([[1.5, -2.25, 3.0], [-10.0, 20.0, 1e-3], [0.1, 0.2, 0.3], [7.0, 8.0, -9.0]])
 LPS = (-1.0, -1.0, 1.0)
-
-
-def written(name, text):
-    path = scratch(name)
-    with open(path, "wb") as file:
-        file.write(text if isinstance(text, bytes) else text.encode())
-    return path
-
-
-def refusal(name, text, **named):
-    """The one sentence with which a file is refused."""
-    with messages():
-        try:
-            brainshift.read_points(written(name, text), **named)
-        except ValueError as error:
-            return str(error)
-    raise AssertionError(f"{text!r} was read")
 
 
 def test_fiducials_of_slicer():
@@ -138,7 +122,7 @@ def test_tables():
     for separator in (",", ";", "\t"):
         for end in ("\n", "\r\n", "\r"):
             for mark in ("", "\ufeff"):
-                text = mark + "# a comment\n" + "".join(separator.join(row) + end for row in rows)
+                text = mark + end.join(["# a comment", *map(separator.join, rows), ""])
                 points = brainshift.read_points(written("table.csv", text))
                 assert points.positions.tolist() == [[1, 2, 3], [4, 5, 6]]
                 assert points.labels == ["a", "b"]
@@ -456,19 +440,6 @@ def refused_tables():
         assert words in refusal("walk.csv", "i;j;k\n1;2;3\n", columns=columns)
 
 
-def test_two_names_of_one_axis_are_no_name_that_is_there_twice():
-    row = ",1,2,3,4,5,6\n"
-    for names, words in (
-            ("x,y,z,x_mm,y_mm,z_mm", "has several positions: x y z, and x_mm y_mm z_mm; name the"),
-            ("x_mm,y_mm,z_mm,x,y,z", "has several positions: x_mm y_mm z_mm, and x y z; name the"),
-            ("x,x_mm,y,z,a,b", "has two columns for one axis of its positions, x and x_mm; name"),
-            ("x,y,z,Y,a,b", "names the column y twice")):
-        assert words in refusal("twins.csv", f"name,{names}\np{row}"), names
-    text = f"name,x,y,z,x_mm,y_mm,z_mm\np{row}"
-    found = brainshift.read_points(written("twins.csv", text), columns=["x_mm", "y_mm", "z_mm"])
-    assert found.positions.tolist() == [[4, 5, 6]]
-
-
 def test_words_of_the_columns_that_a_caller_names_count():
     for names, right, unknown in (
             ("native_x_cm,native_y_cm,native_z_cm", (10, 20, 30), "native"),
@@ -514,27 +485,6 @@ def test_a_coordsystem_above_its_table_counts_in_a_data_set():
     written("data/sub-01_coordsystem.json", json.dumps({
         "EMGCoordinateSystem": "Other", "EMGCoordinateUnits": "percent"}))
     assert "says the unit percent" in refusal(table, "name\tx\ty\tz\nLA1\t1\t2\t3\n")
-
-
-def test_a_coordsystem_that_contradicts_its_table_is_said():
-    table = "sub-09_electrodes.tsv"
-    counts = "what the table says counts"
-    for head, unit, system, words in (
-            ("x_cm\ty_cm\tz_cm", "m", "ScanRAS",
-             "units of 10 mm by its own words, and of 1000 mm by its coordsystem.json"),
-            ("x_cm\ty_cm\tz_cm", "cm", "ScanRAS", ""), ("x\ty\tz", "m", "ScanRAS", ""),
-            ("l\tp\ts", "mm", "ScanRAS", "along LPS by its own words, and along RAS"),
-            ("l\tp\ts", "mm", "ScanLPS", ""), ("l\tp\ts", "mm", "Other", "")):
-        written("sub-09_coordsystem.json", json.dumps({
-            "iEEGCoordinateSystem": system, "iEEGCoordinateUnits": unit}))
-        with messages() as said:
-            brainshift.read_points(written(table, f"name\t{head}\nA\t1\t2\t3\nB\t4\t5\t6\n"))
-        assert said.text.count(counts) == bool(words) and words in said.text, (head, said.text)
-    written("sub-09_coordsystem.json", json.dumps({
-        "iEEGCoordinateSystem": "ScanRAS", "iEEGCoordinateUnits": "mm"}))
-    with messages() as said:
-        brainshift.read_points(written(table, "name\tx\ty\tz\tunits\nA\t1\t2\t3\tm\n"))
-    assert "units of 1000 mm by its own words, and of 1 mm" in said.text, said.text
 
 
 def test_a_head_of_less_than_a_millimetre_is_doubted():
