@@ -526,9 +526,8 @@ void TextHeaderVolume::arrange(VolumeHeader& header)
   if (this->StepsAreComponents && first == 1)
   {
     throw Problem("has the kinds " + this->Stored.text.valueOf({ "kinds" }) +
-      ": components of a voxel after the axes of space, and another axis before them; one of the "
-      "two "
-      "may be there");
+      ": components of a voxel after the axes of space, and another axis before them; only one of "
+      "these may be there");
   }
   this->StepsAreLayers = hasSteps && first == 0 && axes.back().kind == "domain" &&
     !this->Stored.text.keyed("Segment0_ID").empty();

@@ -271,8 +271,9 @@ bool isTransformFile(const std::string& fileName)
     return problemOf([&] { readHDF5Records(fileName); }).empty();
   }
   const std::string begin = readBeginning(fileName, 65536);
-  return begin.rfind(ITKTextBegin, 0) == 0 || isElastixText(begin) || isLTAText(begin) ||
-    isXFMText(begin) || matrixText(begin) ||
+  const std::string text = withLineFeeds(begin);
+  return text.rfind(ITKTextBegin, 0) == 0 || isElastixText(text) || isLTAText(text) ||
+    isXFMText(text) || matrixText(text) ||
     (std::filesystem::path(fileName).extension() == ".mat" &&
       problemOf([&] { readMatlabRecords(begin); }).empty());
 }
