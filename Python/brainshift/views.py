@@ -421,7 +421,30 @@ def _show_both(source, views, former, shown):
         _take_over(shown, [*displays.values(), volume])
     for name in LINKED:  # all take the value of the first one
         link([*displays.values(), volume], "representations", name)
+    if source.GetXMLName() == "CompareVolumes":
+        _stand_by(source, views)
     return displays
+
+
+def _stand_by(comparison, views):
+    """Gives the volume of a comparison hidden displays where it has none: ParaView shows them once
+    the comparison is deleted. They are at the position of the comparison."""
+    from paraview import simple
+
+    volume = comparison.Input
+    missing = [view for view in views.values() if display_of(volume, view) is None]
+    for view in missing:
+        display = simple.Show(volume, view, "UniformGridRepresentation")
+        carry_look(display_of(comparison, view), display)
+        display.SliceComparison = "None"
+        display.SetScalarBarVisibility(view, False)
+        display.Visibility = 0
+    own, hidden = ([display_of(each, view) for view in views.values()]
+                   for each in (comparison, volume))
+    for name in LINKED if missing else ():
+        link(hidden, "representations", name)
+    for name in ("SlicePosition", "WorldAxes"):
+        link([*own, *hidden], "representations", name)
 
 
 def _take_over(shown, displays):

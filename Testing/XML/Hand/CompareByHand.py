@@ -2,7 +2,7 @@
 """Proves that in ParaView's window the key K shows the deformed volume and the reference in turn
 until it is pressed again, of what the active view shows, and lets go of what is deleted or chosen
 meanwhile; that the mouse drags the line of a wipe in a 2D view, and nothing else then; and that
-Four Views goes on with the comparison of a view.
+Four Views goes on with the comparison of a view, and shows its volume once it is deleted.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
@@ -143,6 +143,41 @@ def four_views_show_it(compare, view):
         image = picture(shown)
         assert (image[:, :, 0] > image[:, :, 2] + 0.2).mean() > 0.02, slices
     assert len(simple.GetRenderViews()) == 4
+    simple.GetDisplayProperties(compare, simple.GetActiveView()).SlicePosition = [1.5, 0.5, 2.5]
+
+
+def shown_in_views():
+    """What the four views show, how, at which position, and whether slices have two colours."""
+    found = set()
+    for view in simple.GetRenderViews():
+        for display in view.Representations:
+            if getattr(display, "Representation", None) and display.Visibility:
+                image = picture(view)
+                assert image.max() > 0.2, "it is black"
+                kind = str(display.Representation.GetData())
+                red = (image[:, :, 0] > image[:, :, 2] + 0.2).mean() > 0.1  # not the lines alone
+                found.add((display.Input.GetXMLName(), kind, tuple(display.SlicePosition),
+                           bool(red) and kind == "Deformed Slices"))
+    return found
+
+
+def the_volume_stays():
+    """Where a comparison is deleted that Four Views was opened on; undo brings it back."""
+    before, place = shown_in_views(), (1.5, 0.5, 2.5)
+    assert before == {("CompareVolumes", "Deformed Slices", place, True),
+                      ("CompareVolumes", "Deformed Volume", place, False)}, before
+    assert hand.select(simple.FindSource("second"))
+    hand.delete_selected()
+    hand.wait(300)
+    found = shown_in_views()
+    assert found == {("FreeFormDeformation", "Deformed Slices", place, False),
+                     ("FreeFormDeformation", "Deformed Volume", place, False)}, found
+    window.action("Undo")
+    hand.wait(300)
+    assert shown_in_views() == before, shown_in_views()
+    window.action("Redo")
+    hand.wait(300)
+    assert shown_in_views() == found, shown_in_views()
 
 
 def play():
@@ -157,6 +192,8 @@ def play():
     del display
     delete_while_it_flickers(first, second)
     four_views_show_it(second, view)
+    del first, second
+    the_volume_stays()
 
 
 window.main("CompareByHand", [(play,)])
