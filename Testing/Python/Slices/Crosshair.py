@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that ShowCrosshair draws, in each slice, where the other two slices cut it: at
-# SlicePosition, within a pixel, in the colours of those slices, also beside the tissue. A view is
-# named for its slice in the slice's colour, and the colour-blind can tell the colours apart.
+# SlicePosition, within a pixel, in the colours of those slices, also beside the tissue, alike on
+# both sides. A view is named for its slice in the slice's colour, and the colour-blind can tell
+# the colours apart.
 import itertools
 
 import numpy
@@ -79,6 +80,23 @@ def test_lines_lie_at_the_position():
             assert (columns > SIZE / 4).sum() <= 2, "a line is thin"
             near = changed[int(row) - 5:int(row) + 6, int(column) - 5:int(column) + 6]
             assert not near.any(), "the tissue where the lines meet is seen"
+
+
+def test_arms_are_alike():
+    """Wherever the middle is in its pixel: two pixels wide, and as far from the middle."""
+    for part in numpy.arange(0.0, 1.0, 0.125):
+        position = numpy.add(MIDDLE, (part * 0.2, (part + 0.2) * 0.2, 0.0))
+        changed, _, _ = marked_lines(2, volume(ball()), position)
+        changed = changed[40:160, 40:160]
+        ends = []
+        for count, lines in ((changed.sum(axis=0), changed), (changed.sum(axis=1), changed.T)):
+            wide = numpy.flatnonzero(count > 60)
+            assert len(wide) == 2 and wide[1] == wide[0] + 1, (part, wide)
+            arm = numpy.flatnonzero(lines[:, wide[0]])
+            ends.append((wide.sum(), arm[:-1][numpy.diff(arm) > 1][0] + arm[1:][
+                numpy.diff(arm) > 1][0]))
+        (column, rows), (row, columns) = ends
+        assert rows == row and columns == column, (part, ends, "the gap is in the middle")
 
 
 def test_lines_are_as_wide_on_any_screen():
