@@ -35,11 +35,6 @@ brainshiftGuardRequestsMacro(vtkWholeVolumeRepresentation);
 namespace
 {
 constexpr int LegendFontSize = 14;
-// From the left edge and from the lower one, fractions of the view. A slice's name and the letter
-// of the upper edge are above.
-constexpr double LegendInset = 0.015;
-constexpr double LegendTop = 0.89;
-
 constexpr brainshift::Extent NoExtent{ 0, -1, 0, -1, 0, -1 };
 
 constexpr brainshift::Box NoBox{ 1e300, -1e300, 1e300, -1e300, 1e300, -1e300 };
@@ -108,7 +103,9 @@ vtkWholeVolumeRepresentation::vtkWholeVolumeRepresentation()
   this->Legend->UseBoundsOff();
   this->Legend->VisibilityOff();
   this->Legend->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  this->Legend->SetPosition(LegendInset, LegendTop);
+  this->Legend->Room = [this](const glm::dvec2& view, double point) {
+    return brainshift::placeLegend(this->Legend, view, point, this->Evidence->GetVisibility() != 0);
+  };
   vtkTextProperty* text = this->Legend->GetTextProperty();
   text->SetFontSize(LegendFontSize);
   text->SetBold(true);
@@ -129,6 +126,7 @@ vtkWholeVolumeRepresentation::vtkWholeVolumeRepresentation()
 vtkWholeVolumeRepresentation::~vtkWholeVolumeRepresentation()
 {
   this->Evidence->Ask = nullptr;
+  this->Legend->Room = nullptr;
 }
 
 int vtkWholeVolumeRepresentation::ProcessViewRequest(

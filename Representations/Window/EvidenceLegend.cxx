@@ -8,7 +8,9 @@
 #include "vtkObjectFactory.h"
 #include "vtkTextProperty.h"
 #include "vtkViewport.h"
+#include "vtkWindow.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <sstream>
 
@@ -18,6 +20,8 @@ namespace
 {
 constexpr int FontSize = 14;
 constexpr double Inset = 0.015; // from the edges, fraction of the view
+constexpr double Spaced = 1.15; // from line to line, fraction of a line
+constexpr double PointsPerInch = 72.0;
 constexpr glm::vec3 Untinted(0.85f);
 constexpr glm::vec3 Ink(0.08f);
 
@@ -71,11 +75,44 @@ EvidenceLegend::EvidenceLegend()
 
 EvidenceLegend::~EvidenceLegend() = default;
 
+// The largest letters with which it is at the right of the letter of the upper edge, and above that
+// of the right one.
+void EvidenceLegend::Fit(vtkViewport* viewport, Shown shown)
+{
+  const int* size = viewport->GetSize();
+  const int dpi = viewport->GetVTKWindow()->GetDPI();
+  const std::array<int, 4> fitted = { size[0], size[1], dpi, static_cast<int>(shown) };
+  if (fitted == this->Fitted)
+  {
+    return;
+  }
+  this->Fitted = fitted;
+  glm::dvec2 extent(0.0);
+  for (const std::string& words : wordsOf(shown))
+  {
+    vtkNew<WindowText> line;
+    line->GetTextProperty()->ShallowCopy(this->Lines[0]->GetTextProperty());
+    line->GetTextProperty()->SetFontSize(FontSize);
+    line->SetInput(words.c_str());
+    glm::dvec2 own(0.0);
+    words.empty() ? void() : line->GetSize(viewport, &own[0]);
+    extent = { std::max(extent.x, own.x), extent.y + Spaced * own.y };
+  }
+  const double letter = LetterPoints * dpi / PointsPerInch;
+  const glm::dvec2 room = (0.5 - Inset) * glm::dvec2(size[0], size[1]) - 0.5 * letter;
+  const int points = WindowText::FittingSize(FontSize, extent, room);
+  for (auto& line : this->Lines)
+  {
+    line->GetTextProperty()->SetFontSize(points);
+  }
+}
+
 void EvidenceLegend::Write(vtkViewport* viewport)
 {
   const Shown shown = this->Ask ? this->Ask() : Shown::Tints;
   const std::array<std::string, 5> words = wordsOf(shown);
   const int* size = viewport->GetSize();
+  this->Fit(viewport, shown);
   double top = (1.0 - Inset) * size[1];
   for (std::size_t i = 0; i < this->Lines.size(); ++i)
   {
@@ -96,8 +133,7 @@ void EvidenceLegend::Write(vtkViewport* viewport)
     {
       line->GetSize(viewport, extent);
     }
-    constexpr double spaced = 1.15;
-    top -= spaced * extent[1];
+    top -= Spaced * extent[1];
   }
 }
 

@@ -46,7 +46,9 @@ private:
   void operator=(const EvidenceLegend&) = delete;
 
   void Write(vtkViewport* viewport);
+  void Fit(vtkViewport* viewport, Shown shown);
 
+  std::array<int, 4> Fitted{};             // size and dots per inch of the view, and what was shown
   std::array<vtkNew<WindowText>, 5> Lines; // a heading, then the classes
 };
 }

@@ -389,4 +389,26 @@ def test_without_an_array_nothing_is_drawn():
     Delete(view)
 
 
+def test_legends_leave_the_letters_free():
+    """Also in the small views of a small window, one legend or two."""
+    text = "red: before surgery (bent)\ngreen: US.nii (reference)\nyellow: both"
+    view = flat_view(2, MIDDLE, 20.0)
+    display = show_slices(plain(0.0), view, ("Axial",), MIDDLE)
+    display.WorldAxes = "RAS"
+    for evidence, size in ((0, (480, 360)), (0, (260, 160)), (1, (480, 360)), (1, (480, 190))):
+        view.ViewSize = size
+        shown = []
+        for legend, marks in (("", 1), (text, 0)):
+            display.SliceLegend, display.OrientationMarks = legend, marks
+            display.ShowEvidence = evidence if legend else 0
+            shown.append((picture(view) > 0.0).any(axis=2))
+        letters, legends = shown
+        assert letters.sum() > 100 and legends.sum() > 500, (size, letters.sum(), legends.sum())
+        assert not (letters & legends).any(), (size, evidence)
+        middle = size[0] // 2
+        assert not evidence or not legends[:, middle - 4:middle + 4].any(), "two legends, apart"
+    display.SliceLegend, display.ShowEvidence = "", 0
+    Delete(view)
+
+
 run_tests(globals())
