@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace brainshift
 {
@@ -362,7 +363,8 @@ void RefinePane::refine()
   this->Editor->begin(settings);
 }
 
-// A Compare Volumes has a cavity of its own, or none: that one counts, whatever was chosen here.
+// A Compare Volumes has a cavity of its own, or none: that one counts. What was chosen here comes
+// back with a reference that has none.
 void RefinePane::showCavityOf(pqPipelineSource* reference)
 {
   const bool hasOwn = isComparison(reference);
@@ -377,7 +379,14 @@ void RefinePane::showCavityOf(pqPipelineSource* reference)
     vtkSMProxy* own = vtkSMPropertyHelper(reference->getProxy(), "Cavity").GetAsProxy();
     auto cavity = serverManagerModel()->findItem<pqPipelineSource*>(own);
     text = tr("%1 (of %2)").arg(cavity ? cavity->getSMName() : text, reference->getSMName());
+    this->ChosenCavity =
+      this->Cavity->currentIndex() > 0 ? this->Cavity->currentData() : this->ChosenCavity;
     this->Cavity->setCurrentIndex(0);
+  }
+  else if (this->ChosenCavity.isValid())
+  {
+    const QVariant chosen = std::exchange(this->ChosenCavity, {});
+    this->Cavity->setCurrentIndex(std::max(0, this->Cavity->findData(chosen)));
   }
   this->Cavity->setItemText(0, text);
 }

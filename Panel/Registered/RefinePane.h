@@ -60,6 +60,7 @@ private:
   QComboBox* Cavity = nullptr;
   QComboBox* Similarity = nullptr;
   QDoubleSpinBox* Stiffness = nullptr;
+  QVariant ChosenCavity; ///< While a Compare Volumes has its own: the user's, if any.
   QWidget* Choices = nullptr;
   QWidget* CavityRow = nullptr;
   QToolButton* Refine = nullptr;
