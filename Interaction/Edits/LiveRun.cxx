@@ -5,16 +5,20 @@
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/Reports.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqServer.h>
 
 #include <vtkCommand.h>
+#include <vtkPVXMLElement.h>
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMProxyManager.h>
 #include <vtkSMSession.h>
+#include <vtkSMSessionProxyManager.h>
 
 #include <QApplication>
 #include <QKeyEvent>
+
+#include <utility>
 
 namespace brainshift
 {
@@ -58,8 +62,9 @@ void LiveRun::followApplication()
     }
   };
   this->connect(qApp, &QCoreApplication::aboutToQuit, this, [abandonIf] { abandonIf(true); });
-  this->connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
-    &LiveRun::standAside);
+  constexpr float first = 1.0f; // before others, which add to the state (QuietLinks)
+  this->OfSource->Connect(this->Source->getServer()->proxyManager(), vtkCommand::SaveStateEvent,
+    this, SLOT(writeStart(vtkObject*, unsigned long, void*, void*)), nullptr, first);
   pqServerManagerModel* model = serverManagerModel();
   this->connect(model, &pqServerManagerModel::preServerRemoved, this,
     [this, abandonIf](pqServer* server) { abandonIf(server == this->Source->getServer()); });
@@ -71,17 +76,31 @@ void LiveRun::followApplication()
   });
 }
 
-// A state file gets what was there before: what is under way is neither kept nor checked.
+// What is under way is neither kept nor checked. ParaView announces a state when it has described
+// the proxies, so they are described again. Menu, Python and crash recovery all come here.
+void LiveRun::writeStart(vtkObject* manager, unsigned long, void*, void* saved)
+{
+  vtkPVXMLElement* root =
+    static_cast<const vtkSMProxyManager::LoadStateInformation*>(saved)->RootElement;
+  vtkPVXMLElement* state = root ? root->FindNestedElementByName("ServerManagerState") : nullptr;
+  if (this->isActive() && state)
+  {
+    this->standAside();
+    root->RemoveNestedElement(state);
+    root->AddNestedElement(vtkSMSessionProxyManager::SafeDownCast(manager)->GetXMLState());
+  }
+}
+
 void LiveRun::standAside()
 {
-  if (!this->isActive())
+  if (std::exchange(this->IsAside, true)) // two states may be saved before it comes back
   {
     return;
   }
   this->Next.stop();
   this->restore();
   QTimer::singleShot(0, this, [this] {
-    if (this->isActive())
+    if (std::exchange(this->IsAside, false) && this->isActive())
     {
       this->comeBack();
       drawFully(this->Source);
@@ -205,6 +224,7 @@ void LiveRun::keepDiscarded()
 void LiveRun::end(State end, const QString& problem)
 {
   this->HasDiscarded = false;
+  this->IsAside = false;
   qApp->removeEventFilter(this);
   this->Next.stop();
   this->release();

@@ -68,6 +68,8 @@ Q_SIGNALS:
 
 protected Q_SLOTS:
   void notice(vtkObject* proxy, unsigned long event, void* clientData, void* name);
+  /// Of a state that is being saved: it gets what was there before.
+  void writeStart(vtkObject* manager, unsigned long event, void* clientData, void* saved);
 
 protected:
   explicit LiveRun(pqPipelineSource* source);
@@ -127,6 +129,7 @@ private:
 
   bool HasDiscarded = false;
   bool HasChangedSince = false;
+  bool IsAside = false; ///< The start is restored for a state, until the next event.
 
   vtkNew<vtkEventQtSlotConnect> OfSource;
   vtkNew<vtkEventQtSlotConnect> OfOthers; // what else the result depends on

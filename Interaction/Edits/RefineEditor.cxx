@@ -496,12 +496,14 @@ void RefineEditor::releaseHeldSoon()
   QTimer::singleShot(0, qApp, [held] {
     if (held && held->GetSession())
     {
+  this->Unselected.putBack();
       SCOPED_UNDO_EXCLUDE();
       held->GetSessionProxyManager()->UnRegisterProxy(held);
     }
   });
 }
 
+  this->Unselected.leaveOut(this->Source);
 void RefineEditor::release()
 {
   this->Unselected.putBack();
