@@ -235,6 +235,12 @@ void LiveRun::end(State end, const QString& problem)
   Q_EMIT this->changed();
 }
 
+void LiveRun::forgetProblem()
+{
+  this->Problem.clear();
+  Q_EMIT this->changed();
+}
+
 void LiveRun::watch(vtkSMProxy* proxy)
 {
   if (proxy)
@@ -260,7 +266,7 @@ void LiveRun::notice(vtkObject* proxy, unsigned long, void*, void* name)
   }
   this->HasDiscarded = false; // it started from something else
   this->HasChangedSince = hasResult;
-  Q_EMIT this->changed();
+  hasResult ? this->forgetProblem() : Q_EMIT this->changed();
 }
 
 bool LiveRun::eventFilter(QObject* watched, QEvent* event)

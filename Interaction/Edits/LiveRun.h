@@ -89,6 +89,8 @@ protected:
 
   /// Starts the timer.
   void start();
+  /// Why it ended no longer holds.
+  void forgetProblem();
   /// Ends it; the pipeline stays as it is.
   void end(State end, const QString& problem);
   /// Restores the state before it, as cancel() does. A result that failed its checks can be kept.
@@ -127,9 +129,9 @@ private:
   void followApplication();
   void standAside();
 
+  bool IsAside = false; ///< The start is restored for a state, until the next event.
   bool HasDiscarded = false;
   bool HasChangedSince = false;
-  bool IsAside = false; ///< The start is restored for a state, until the next event.
 
   vtkNew<vtkEventQtSlotConnect> OfSource;
   vtkNew<vtkEventQtSlotConnect> OfOthers; // what else the result depends on

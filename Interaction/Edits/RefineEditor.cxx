@@ -108,6 +108,8 @@ bool isRefined(vtkSMProxy* lattice)
   return lattice && std::strcmp(lattice->GetXMLName(), "RefinedLattice") == 0;
 }
 
+constexpr char UnderWay[] = "BrainShift.UnderWay"; // annotation of a temporary lattice
+
 // Whether another source uses a lattice, too, such as a fit as its base.
 bool isUsedByOthers(vtkSMProxy* lattice, vtkSMProxy* deformation)
 {
@@ -122,6 +124,28 @@ bool isUsedByOthers(vtkSMProxy* lattice, vtkSMProxy* deformation)
     }
   }
   return false;
+}
+
+void unregisterQuietly(const vtkWeakPointer<vtkSMProxy>& lattice)
+{
+  if (lattice && lattice->GetSession())
+  {
+    SCOPED_UNDO_EXCLUDE();
+    lattice->GetSessionProxyManager()->UnRegisterProxy(lattice);
+  }
+}
+
+// ParaView's steps bring back all that was registered when they were recorded: also the temporary
+// lattice, if the user deleted or made a source while a refinement ran.
+void dropRevived(pqPipelineSource* source)
+{
+  const vtkWeakPointer<vtkSMProxy> lattice = source->getProxy();
+  if (isReplayed() && lattice->HasAnnotation(UnderWay))
+  {
+    QTimer::singleShot(0, qApp, [lattice] { // later: undo is running
+      lattice && !isUsedByOthers(lattice, nullptr) ? unregisterQuietly(lattice) : void();
+    });
+  }
 }
 }
 
@@ -183,8 +207,20 @@ RefineEditor::RefineEditor(pqPipelineSource* source)
   // If the user edits meanwhile, the result so far is kept and the edit follows it.
   this->connect(StrokeEditor::of(source), &StrokeEditor::aboutToEdit, this, &RefineEditor::stop);
   this->connect(FitEditor::of(source), &FitEditor::aboutToEdit, this, &RefineEditor::stop);
-  this->connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
-    [this] { this->Unselected.putBack(); });
+  pqServerManagerModel* model = serverManagerModel();
+  static const auto dropping [[maybe_unused]] = // one for all: a deformation may be gone
+    QObject::connect(model, &pqServerManagerModel::sourceAdded, model, &dropRevived);
+  this->connect(model, &pqServerManagerModel::sourceAdded, this, &RefineEditor::forgetProblemOf);
+}
+
+// What undo brings back was not deleted.
+void RefineEditor::forgetProblemOf(pqPipelineSource* source)
+{
+  if (this->Deleted != 0 && source->getProxy()->GetGlobalID() == this->Deleted)
+  {
+    this->Deleted = 0;
+    this->forgetProblem();
+  }
 }
 
 void RefineEditor::followRemoval(pqPipelineSource* source)
@@ -201,6 +237,7 @@ void RefineEditor::followRemoval(pqPipelineSource* source)
   }
   else if (source == this->Reference)
   {
+    this->Deleted = source->getProxy()->GetGlobalID();
     this->followReference(tr("%1 was deleted").arg(source->getSMName()));
   }
 }
@@ -233,6 +270,7 @@ void RefineEditor::begin(const RefineSettings& settings)
   this->stopAligning(settings.reference);
   this->Figures = {};
   this->Costs.clear();
+  this->Deleted = 0;
   const QString problem = this->beginRefinement(settings);
   if (!problem.isEmpty())
   {
@@ -313,6 +351,7 @@ void RefineEditor::hold()
   this->Strokes = vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetDoubleArray();
   const vtkSmartPointer<vtkSMProxy> made =
     makeLatticeFilter(this->Source->getProxy(), "RefinedLattice");
+  made->SetAnnotation(UnderWay, "1");
   registerQuietly(made, "refined");
   this->Held = made;
   this->putIn(made, this->Points);
@@ -457,18 +496,14 @@ QByteArray RefineEditor::found() const
 
 void RefineEditor::restore()
 {
+  this->Unselected.putBack();
   this->putBack();
-  const vtkSmartPointer<vtkSMProxy> held = this->Held.GetPointer();
-  this->Held = nullptr; // its removal ends nothing
-  if (held)
-  {
-    SCOPED_UNDO_EXCLUDE();
-    held->GetSessionProxyManager()->UnRegisterProxy(held);
-  }
+  unregisterQuietly(std::exchange(this->Held, nullptr)); // its removal ends nothing
 }
 
 void RefineEditor::comeBack()
 {
+  this->Unselected.leaveOut(this->Source);
   this->hold();
   this->IsDrawn = true;
 }
@@ -492,18 +527,9 @@ void RefineEditor::putBaseBack()
 // Later: ParaView is iterating over its sources now, or undo is running.
 void RefineEditor::releaseHeldSoon()
 {
-  const vtkWeakPointer<vtkSMProxy> held = this->Held;
-  QTimer::singleShot(0, qApp, [held] {
-    if (held && held->GetSession())
-    {
-  this->Unselected.putBack();
-      SCOPED_UNDO_EXCLUDE();
-      held->GetSessionProxyManager()->UnRegisterProxy(held);
-    }
-  });
+  QTimer::singleShot(0, qApp, [held = this->Held] { unregisterQuietly(held); });
 }
 
-  this->Unselected.leaveOut(this->Source);
 void RefineEditor::release()
 {
   this->Unselected.putBack();

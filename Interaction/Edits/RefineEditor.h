@@ -107,11 +107,13 @@ private:
   void releaseHeldSoon(); ///< Releases the temporary lattice; it is deleted later.
   void stopAligning(pqPipelineSource* reference);
   void followReference(const QString& happened);
+  void forgetProblemOf(pqPipelineSource* source);
   vtkSmartPointer<vtkSMProxy> lattice() const;
 
   RefineFigures Figures;
   QList<double> Costs;
   QJsonObject Compared;       ///< What it is made of.
+  vtkTypeUInt32 Deleted = 0;  ///< Global number of the reference whose deletion ended it; 0: none.
   std::vector<double> Start;  ///< Control points: 3 numbers each (mm, world axes), x fastest.
   std::vector<double> Points; ///< The same, after the last step.
 

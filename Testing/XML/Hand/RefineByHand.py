@@ -232,8 +232,14 @@ def it_ends_by_itself():
                               Reference=simple.FindSource("after"))
         simple.SetActiveSource(deformation())
     hand.wait(100)
+    for cavity in ("after", "None"):  # what the user chose counts again for another reference
+        assert hand.choose("BrainShiftRefineReference", "after")
+        assert hand.choose("BrainShiftRefineCavity", cavity)
+        assert hand.choose("BrainShiftRefineReference", "compared")
+        assert hand.entries("BrainShiftRefineCavity")[0] == "None (of compared)"
+        assert hand.choose("BrainShiftRefineReference", "after")
+        assert hand.entries("BrainShiftRefineCavity")[0] == cavity
     assert hand.choose("BrainShiftRefineReference", "compared")
-    assert hand.entries("BrainShiftRefineCavity")[0] == "None (of compared)"
     begin()
     window.until(lambda: said().startswith("Finished"), "an end", 120.0)
     assert "Its checks found no fault" in said(), (said(), hand.label("BrainShiftRefineWarning"))
@@ -555,9 +561,11 @@ def what_is_wrong_is_said():
 def a_reference_may_go():
     open_again()
     begin()
-    simple.Delete(simple.FindSource("compared"))
+    assert hand.select(simple.FindSource("compared"))
+    hand.delete_selected()
     window.until(lambda: "was deleted" in hand.label("BrainShiftRefineWarning"), "a sentence")
     assert said().startswith("Stopped after"), said()
+    it_may_come_back()
     for name in ("after", "after.vti"):  # a state calls a reader as its file
         if simple.FindSource(name):
             simple.Delete(simple.FindSource(name))
@@ -565,6 +573,24 @@ def a_reference_may_go():
     assert hand.click("BrainShiftRefine")
     told = hand.label("BrainShiftRefineWarning")
     assert told.startswith("There is no reference"), told
+
+
+def it_may_come_back():
+    """All is as before then: no lattice of a step is left, and no sentence."""
+    undo = undo_labels()
+    assert undo[:2] == ["Refine", "Delete compared"], undo
+    for _ in range(2):
+        for number in range(2):
+            window.action("Undo")
+            hand.wait(200)
+            assert not lattices(), (number, lattices())
+        assert simple.FindSource("compared") and tuple(deformation().Strokes) == HAND
+        assert not hand.label("BrainShiftRefineWarning"), hand.label("BrainShiftRefineWarning")
+        for number in range(2):
+            window.action("Redo")
+            hand.wait(200)
+            assert len(lattices()) == number, (number, lattices())
+    assert undo_labels() == undo, undo_labels()
 
 
 def the_deformation_may_go():
