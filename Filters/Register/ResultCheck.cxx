@@ -15,6 +15,7 @@ namespace
 {
 constexpr int MostSteps = 20;          // of a run
 constexpr double FarthestStart = 8.0;  // mm and degrees from the result
+constexpr double NearestStart = 3.0;   // likewise, of searches that begin near
 constexpr double LeastRivalMm = 2.0;   // a place that is nearer is the same
 constexpr double LeastSamples = 800.0; // of a run over all of the compared part
 constexpr double LeastOfHalf = 200.0;  // samples
@@ -111,8 +112,9 @@ void ResultCheck::begin()
   this->Steps = 0;
   if (!this->isHalf() && !this->isByOther())
   {
-    this->State->moveTo(
-      this->State->startNear(this->Region.middle(), this->Run - HalfRuns, FarthestStart));
+    const int number = this->Run - HalfRuns;
+    this->State->moveTo(this->State->startNear(
+      this->Region.middle(), number, number > FarRuns ? NearestStart : FarthestStart));
   }
   if (this->isByOther() || this->Weights.empty())
   {
@@ -245,7 +247,12 @@ void ResultCheck::finishRival()
   const Controls& from = this->State->startControls;
   const Controls& found = this->State->controls;
   const std::optional<double> mm = this->motionMm(found, from);
-  if (!(this->Cost > 0.0)) // also rejects NaN
+  const bool beganNear = this->Run - HalfRuns > FarRuns;
+  if (mm && (beganNear || *mm <= LeastRivalMm))
+  {
+    this->addToSpread(*mm);
+  }
+  if (!(this->Cost > 0.0) || beganNear) // also rejects NaN
   {
     return;
   }
@@ -258,6 +265,13 @@ void ResultCheck::finishRival()
     std::transform(
       found.begin(), found.end(), from.begin(), this->Figures.rivalMotion.begin(), std::minus<>());
   }
+}
+
+void ResultCheck::addToSpread(double mm)
+{
+  this->SumOfSquares += std::pow(std::min(mm, LeastRivalMm), 2.0);
+  ++this->Ends;
+  this->Figures.spreadMm = std::sqrt(this->SumOfSquares / this->Ends);
 }
 
 void ResultCheck::finishRun()

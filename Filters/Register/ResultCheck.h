@@ -7,7 +7,7 @@
 /// chance made it. Another metric registers all of it rigidly from the result: a wrong result is a
 /// minimum of one metric only. By ultrasound the volume is also registered from some places near
 /// the result: a right result costs clearly less than any other place where such a search ends; a
-/// wrong one is a minimum among many.
+/// wrong one is a minimum among many. And searches around a right result end where it is.
 #ifndef BrainShift_ResultCheck_h
 #define BrainShift_ResultCheck_h
 
@@ -34,6 +34,11 @@ struct CheckFigures
   std::optional<double> rivalGain{};
   double rivalMm = 0.0;   ///< mean distance of that place
   Controls rivalMotion{}; ///< of each control point, from the result to that place
+  /**
+   * Root of the mean square distance (mm) from the result to where searches around it end. An end
+   * that is 2 mm away or more counts as 2 mm if its search began near, else it is another place.
+   */
+  std::optional<double> spreadMm{};
 };
 
 class BRAINSHIFT_DEFORMATION_EXPORT ResultCheck
@@ -61,8 +66,10 @@ public:
   RegisteredPair takePair() { return std::move(this->Pair); }
 
 private:
-  static constexpr int HalfRuns = 6;  // two for each axis
-  static constexpr int RivalRuns = 7; // from the result, and from places near it
+  static constexpr int HalfRuns = 6;                       // two for each axis
+  static constexpr int FarRuns = 6;                        // from places near the result
+  static constexpr int NearRuns = 3;                       // from places nearer to it
+  static constexpr int RivalRuns = 1 + FarRuns + NearRuns; // the first from the result
   static constexpr int OtherRun = HalfRuns + RivalRuns;
   static constexpr int Runs = OtherRun + 1; // the last one is by the other metric
 
@@ -79,6 +86,7 @@ private:
   void finishRun();
   void finishHalf(const Controls& found);
   void finishRival();
+  void addToSpread(double mm);
   void leaveOut();
   std::optional<double> motionMm(const Controls& a, const Controls& b) const;
 
@@ -91,6 +99,8 @@ private:
   std::vector<double> Weights; // of the control points, by their samples
   double SumOfHalves = 0.0;    // mm
   int Axes = 0;                // of which both halves were registered
+  double SumOfSquares = 0.0;   // mm^2, of the spread
+  int Ends = 0;                // that it is of
   double Cost = 0.0;           // of the place that the search finds from the result itself
 
   int Run = 0;

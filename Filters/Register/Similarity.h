@@ -258,10 +258,12 @@ struct CheckPlan
   RefinementLevel other;  ///< rigid: another metric, which registers all of it
   /**
    * Least fraction by which any other place that a search nearby finds costs more, by the metric of
-   * the halves: a result below it fails, one below six times it is doubtful. 0: no search.
+   * the halves: a result below it is doubtful. 0: no search.
    */
   double rivalGain = 0.0;
-  double halvesMm = 3.0; ///< mean distance of two halves
+  /** With a search: geometric mean of the distance of halves and the spread of the ends. */
+  double scatterMm = 0.0;
+  double halvesMm = 3.0; ///< mean distance of two halves, without a search
   double otherMm = 1.0;  ///< mean distance by which the other metric moves the result
   Descriptor
     blocks; ///< finds parts that belong elsewhere (BlockCheck.h); none: they are not looked for

@@ -14,9 +14,8 @@ namespace
 // A result fails by one check alone if its figure is so many times its limit.
 constexpr double FarBeyond = 1.5;
 
-// A result is doubtful if its gain over other places nearby is less than so many times the limit
-// below which it fails.
-constexpr double DoubtfulGain = 6.0;
+// From this fraction of the most scatter on, a result is doubtful.
+constexpr double DoubtfulScatter = 0.9;
 
 // The least gain of mutual information by another orientation, as a fraction.
 constexpr double LeastGain = 0.1;
@@ -60,16 +59,11 @@ void Verdict::lower(Trust to, const std::string& reason)
   this->reasons.push_back(reason);
 }
 
-Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
+namespace
 {
-  Verdict verdict;
-  if (!figures.halvesMm && !figures.otherMm)
-  {
-    verdict.reasons.push_back("The result was not checked, because too little was compared that "
-                              "tells where tissue belongs.");
-    return verdict;
-  }
-  verdict.trust = Trust::Good;
+// What halves and another metric say, each by its own limit.
+void judgeHalvesAndOther(const CheckFigures& figures, const CheckPlan& limits, Verdict& verdict)
+{
   const double halves = timesLimit(figures.halvesMm, limits.halvesMm);
   const double other = timesLimit(figures.otherMm, limits.otherMm);
   const bool hasFailed = (halves > 1.0 && other > 1.0) || std::max(halves, other) > FarBeyond;
@@ -88,19 +82,63 @@ Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
       "Another similarity moves the result by " + inMm(figures.otherMm.value_or(0.0)) +
         " on average; it moves right results by up to " + inMm(limits.otherMm) + ".");
   }
-  if (figures.rivalGain && *figures.rivalGain < DoubtfulGain * limits.rivalGain)
+}
+
+// Either figure alone tells less than both together.
+void judgeScatter(const CheckFigures& figures, const CheckPlan& limits, Verdict& verdict)
+{
+  const double halves = figures.halvesMm.value_or(0.0);
+  const double spread = figures.spreadMm.value_or(0.0);
+  const double scatter = std::sqrt(halves * spread);
+  if (scatter > DoubtfulScatter * limits.scatterMm)
   {
-    const bool isSecond = verdict.trust == Trust::Doubtful; // of two checks that found a fault
-    const bool isBetter = *figures.rivalGain < 0.0;
-    verdict.lower(
-      isSecond || *figures.rivalGain < limits.rivalGain ? Trust::Failed : Trust::Doubtful,
-      "A search from places nearby ends " + inMm(figures.rivalMm) +
-        " away on average, where the volumes match " + (isBetter ? "better" : "nearly as well") +
-        ": the cost is " + roundedText(100.0 * std::abs(*figures.rivalGain)) + " percent " +
-        (isBetter ? "less" : "more") + "; of right results it is at least " +
-        roundedText(100.0 * DoubtfulGain * limits.rivalGain) +
-        " percent more. Start nearer to the right place, or from several places.");
+    verdict.lower(scatter > limits.scatterMm ? Trust::Failed : Trust::Doubtful,
+      "Registrations of parts and from places nearby scatter by " + inMm(scatter) +
+        "; those of right results by up to " + inMm(limits.scatterMm) +
+        ". (Halves of what was compared end " + inMm(halves) +
+        " from each other on average, searches around the result " + inMm(spread) +
+        " from it; their geometric mean counts.)");
   }
+}
+
+// Whether another place nearby matches as well.
+void judgeRival(const CheckFigures& figures, const CheckPlan& limits, Verdict& verdict)
+{
+  if (!figures.rivalGain || *figures.rivalGain >= limits.rivalGain)
+  {
+    return;
+  }
+  const bool isSecond = verdict.trust == Trust::Doubtful; // of two checks that found a fault
+  const bool isBetter = *figures.rivalGain < 0.0;
+  verdict.lower(isSecond ? Trust::Failed : Trust::Doubtful,
+    "A search from places nearby ends " + inMm(figures.rivalMm) +
+      " away on average, where the volumes match " + (isBetter ? "better" : "nearly as well") +
+      ": the cost is " + roundedText(100.0 * std::abs(*figures.rivalGain)) + " percent " +
+      (isBetter ? "less" : "more") + "; of right results it is at least " +
+      roundedText(100.0 * limits.rivalGain) +
+      " percent more. Start nearer to the right place, or from several places.");
+}
+}
+
+Verdict verdictOf(const CheckFigures& figures, const CheckPlan& limits)
+{
+  Verdict verdict;
+  if (!figures.halvesMm && !figures.otherMm)
+  {
+    verdict.reasons.push_back("The result was not checked, because too little was compared that "
+                              "tells where tissue belongs.");
+    return verdict;
+  }
+  verdict.trust = Trust::Good;
+  if (limits.scatterMm > 0.0 && figures.halvesMm && figures.spreadMm)
+  {
+    judgeScatter(figures, limits, verdict);
+  }
+  else
+  {
+    judgeHalvesAndOther(figures, limits, verdict);
+  }
+  judgeRival(figures, limits, verdict);
   return verdict;
 }
 

@@ -19,7 +19,8 @@ constexpr double SpeckleStiffness = 5.0;
 // Costs of self-similarity differ more between positions than those of LC2.
 constexpr float LocalFitWeight = 2.0f;
 
-constexpr double LeastRivalGain = 0.005;
+constexpr double LeastRivalGain = 0.03;
+constexpr double MostScatterMm = 1.32; // README.md of the folder above has the figures
 
 constexpr double SpacingMm = 1.0;
 constexpr int KeptPositions = 3; // of a search from several starts
@@ -112,6 +113,7 @@ Similarity describeUltrasound()
   result.plan.fan = FanLimits{};
   result.plan.check.halves = { &Both, SpacingMm, 1.0, true, false, 1, 1.0, Part::Quick };
   result.plan.check.rivalGain = LeastRivalGain; // LC2 has its say in the result already
+  result.plan.check.scatterMm = MostScatterMm;
   return result;
 }
 }

@@ -265,10 +265,10 @@ TEST(Trust, OneFigureBeyondItsLimitIsDoubtfulAndTwoFail)
   EXPECT_EQ(trust({}, {}), Trust::Unchecked);
 }
 
-TEST(Trust, APlaceNearbyThatMatchesAsWellFailsOrMakesItDoubtful)
+TEST(Trust, APlaceNearbyThatMatchesAsWellMakesItDoubtful)
 {
   CheckPlan limits;
-  limits.rivalGain = 0.01;
+  limits.rivalGain = 0.06;
   CheckFigures figures;
   figures.halvesMm = 1.0;
   EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Good) << "the search found no other place";
@@ -281,12 +281,32 @@ TEST(Trust, APlaceNearbyThatMatchesAsWellFailsOrMakesItDoubtful)
   EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Failed) << "two checks found a fault";
   figures.halvesMm = 1.0;
   figures.rivalGain = 0.009;
-  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Failed);
+  EXPECT_EQ(verdictOf(figures, limits).trust, Trust::Doubtful);
   EXPECT_TRUE(says(verdictOf(figures, limits), "6 mm away on average"));
   EXPECT_TRUE(says(verdictOf(figures, limits), "nearly as well: the cost is 0.9 percent more"));
   EXPECT_TRUE(says(verdictOf(figures, limits), "at least 6 percent more"));
   figures.rivalGain = -0.02;
   EXPECT_TRUE(says(verdictOf(figures, limits), "match better: the cost is 2 percent less"));
+}
+
+TEST(Trust, ScatterIsThatOfHalvesAndOfSearchesAround)
+{
+  CheckPlan limits;
+  limits.rivalGain = 0.03;
+  limits.scatterMm = 1.5;
+  const auto verdict = [&](double halvesMm, std::optional<double> spreadMm) {
+    CheckFigures figures;
+    figures.halvesMm = halvesMm;
+    figures.spreadMm = spreadMm;
+    return verdictOf(figures, limits);
+  };
+  EXPECT_EQ(verdict(4.0, 0.4).trust, Trust::Good) << "1.26 mm";
+  EXPECT_EQ(verdict(1.0, 1.8).trust, Trust::Good) << "1.34 mm";
+  EXPECT_EQ(verdict(2.5, 0.8).trust, Trust::Doubtful) << "1.41 mm";
+  EXPECT_EQ(verdict(2.9, 0.8).trust, Trust::Failed) << "1.52 mm";
+  EXPECT_TRUE(says(verdict(3.2, 0.8), "scatter by 1.6 mm; those of right results by up to 1.5 mm"));
+  EXPECT_EQ(verdict(2.9, {}).trust, Trust::Good) << "halves alone, up to 3 mm";
+  EXPECT_EQ(verdict(3.1, {}).trust, Trust::Doubtful);
 }
 
 TEST(Trust, AMatchInsideThatIsWorseThanBesideIsNotCalledLess)

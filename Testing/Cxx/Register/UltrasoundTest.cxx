@@ -309,6 +309,8 @@ TEST(Ultrasound, ACheckThatGoesOnWithTheLastLevelFindsTheSame)
   EXPECT_EQ(quick.figures().halvesMm, whole.figures().halvesMm);
   EXPECT_EQ(quick.figures().rivalGain, whole.figures().rivalGain);
   EXPECT_EQ(quick.figures().rivalMm, whole.figures().rivalMm);
+  ASSERT_TRUE(whole.figures().spreadMm);
+  EXPECT_EQ(quick.figures().spreadMm, whole.figures().spreadMm);
   EXPECT_GT(calls, 4);
 }
 
