@@ -163,8 +163,10 @@ TEST(TextHeaderSaid, SlopesThatAreNone)
   }
   for (const std::string none : { "nan", "inf", "two", "1 2" })
   {
-    expectRefused<Meta>("slope.mha", metaImage({ { slope, none } }),
-      "has the " + slope + " " + none + "; it must be a finite number");
+    std::string sentence = "has the " + slope + " ";
+    sentence += none;
+    sentence += "; it must be a finite number";
+    expectRefused<Meta>("slope.mha", metaImage({ { slope, none } }), sentence);
   }
 }
 
