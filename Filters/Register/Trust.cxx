@@ -94,9 +94,9 @@ void judgeScatter(const CheckFigures& figures, const CheckPlan& limits, Verdict&
   {
     verdict.lower(scatter > limits.scatterMm ? Trust::Failed : Trust::Doubtful,
       "Registrations of parts and from places nearby scatter by " + inMm(scatter) +
-        "; those of right results by up to " + inMm(limits.scatterMm) +
-        ". (Halves of what was compared end " + inMm(halves) +
-        " from each other on average, searches around the result " + inMm(spread) +
+        "; a result is doubtful above " + inMm(DoubtfulScatter * limits.scatterMm) +
+        " and fails above " + inMm(limits.scatterMm) + ". (Halves of what was compared end " +
+        inMm(halves) + " from each other on average, searches around the result " + inMm(spread) +
         " from it; their geometric mean counts.)");
   }
 }
