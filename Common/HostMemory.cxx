@@ -121,10 +121,10 @@ long long machineNumber()
 }
 
 std::string sharedMemoryProblem(
-  const std::string& what, const std::vector<MemoryNeed>& needs, std::size_t own, double left)
+  const std::string& what, const std::vector<ProcessNeed>& needs, std::size_t own, double left)
 {
   double bytes = 0.0;
-  for (const MemoryNeed& need : needs)
+  for (const ProcessNeed& need : needs)
   {
     bytes += need.machine == needs[own].machine ? need.bytes : 0.0;
   }

@@ -30,7 +30,7 @@ VTKBRAINSHIFTCOMMON_EXPORT double freeHostMemory();
 VTKBRAINSHIFTCOMMON_EXPORT std::string hostMemoryProblem(const std::string& what, double bytes);
 
 /// What a process is to take, and on which machine.
-struct MemoryNeed
+struct ProcessNeed
 {
   long long machine; ///< see machineNumber
   double bytes;
@@ -53,7 +53,7 @@ VTKBRAINSHIFTCOMMON_EXPORT double freeMachineMemory();
  * @param left    bytes that this machine has free
  */
 VTKBRAINSHIFTCOMMON_EXPORT std::string sharedMemoryProblem(
-  const std::string& what, const std::vector<MemoryNeed>& needs, std::size_t own, double left);
+  const std::string& what, const std::vector<ProcessNeed>& needs, std::size_t own, double left);
 
 /** Throws hostMemoryProblem, unless the memory is there. */
 VTKBRAINSHIFTCOMMON_EXPORT void requireHostMemory(const std::string& what, double bytes);

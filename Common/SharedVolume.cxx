@@ -402,7 +402,7 @@ public:
     const std::vector<long long>& machines)
   {
     const Extent& own = this->Wanted[rank];
-    std::vector<MemoryNeed> needs;
+    std::vector<ProcessNeed> needs;
     for (std::size_t i = 0; i < machines.size(); ++i)
     {
       const Extent& wanted = this->Wanted[i];

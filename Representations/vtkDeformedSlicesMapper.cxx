@@ -352,8 +352,7 @@ bool vtkDeformedSlicesMapper::UploadReference(GpuTask& gpu, Device& device,
   const double* range = tissue.property->GetRGBTransferFunction()->GetRange();
   const ComparedVolume volume{ whole.grid, whole.layout, { range[0], range[1] },
     device.Tissue.stored(),
-    valueFromReference(
-      reference.voxels, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] }),
+    valueFromReference(reference, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] }),
     scene.tissue.transferFromScalar, reference.isLabels || this->Interpolation == Nearest,
     this->IsCubic(tissue) && !reference.isLabels };
   return device.Reference.update(gpu, reference, choice, volume, scene.reference);

@@ -362,20 +362,18 @@ void vtkDeformedSlicesRepresentation::WidenByTissue(vtkImageData* volume, double
   this->GetDeformedSlicesMapper()->WidenByTissue(volume, bounds);
 }
 
+const brainshift::Lattice* vtkDeformedSlicesRepresentation::LatticeOf(vtkImageData* volume)
+{
+  return this->GetDeformedSlicesMapper()->GetLattice(volume);
+}
+
 // A window of local similarity that is around a place of the part is in part beside it.
-std::array<int, 6> vtkDeformedSlicesRepresentation::RestExtent(const brainshift::WholeVolume& whole,
-  vtkImageData* volume, const std::array<double, 6>& part, double haloMm)
+double vtkDeformedSlicesRepresentation::ReadsBesideMm(vtkImageData* volume) const
 {
   vtkDeformedSlicesMapper* slices = this->GetDeformedSlicesMapper();
   const bool hasWindow = slices->GetComparison() == vtkDeformedSlicesMapper::LocalSimilarity &&
-    volume && brainshift::readReference(volume).voxels;
-  const double besideMm = hasWindow ? 0.5 * slices->GetSimilarityWindow() : 0.0;
-  brainshift::Box box = part;
-  for (int side = 0; side < 6; ++side)
-  {
-    box[side] += side % 2 ? besideMm : -besideMm;
-  }
-  return brainshift::restExtent(whole, slices->GetLattice(volume), box, haloMm);
+    brainshift::readReference(volume).voxels;
+  return hasWindow ? 0.5 * slices->GetSimilarityWindow() : 0.0;
 }
 
 void vtkDeformedSlicesRepresentation::SetDrawnPart(const brainshift::DrawnPart* part)

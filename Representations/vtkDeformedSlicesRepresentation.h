@@ -83,8 +83,8 @@ protected:
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
 
   void WidenByTissue(vtkImageData* volume, double bounds[6]) override;
-  std::array<int, 6> RestExtent(const brainshift::WholeVolume& whole, vtkImageData* volume,
-    const std::array<double, 6>& part, double haloMm) override;
+  const brainshift::Lattice* LatticeOf(vtkImageData* volume) override;
+  double ReadsBesideMm(vtkImageData* volume) const override;
   void SetDrawnPart(const brainshift::DrawnPart* part) override;
 
 private:

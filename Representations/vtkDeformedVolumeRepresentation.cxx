@@ -231,11 +231,9 @@ void vtkDeformedVolumeRepresentation::WidenByTissue(vtkImageData* volume, double
   this->GetDeformedVolumeMapper()->WidenByTissue(volume, bounds);
 }
 
-std::array<int, 6> vtkDeformedVolumeRepresentation::RestExtent(const brainshift::WholeVolume& whole,
-  vtkImageData* volume, const std::array<double, 6>& part, double haloMm)
+const brainshift::Lattice* vtkDeformedVolumeRepresentation::LatticeOf(vtkImageData* volume)
 {
-  const brainshift::Lattice* lattice = this->GetDeformedVolumeMapper()->GetLattice(volume);
-  return brainshift::restExtent(whole, lattice, part, haloMm);
+  return this->GetDeformedVolumeMapper()->GetLattice(volume);
 }
 
 void vtkDeformedVolumeRepresentation::CountVisible(

@@ -110,8 +110,7 @@ protected:
   std::string WhyWhole() const override;
   std::string WhyDataIsWhole() const override;
   void WidenByTissue(vtkImageData* volume, double bounds[6]) override;
-  std::array<int, 6> RestExtent(const brainshift::WholeVolume& whole, vtkImageData* volume,
-    const std::array<double, 6>& part, double haloMm) override;
+  const brainshift::Lattice* LatticeOf(vtkImageData* volume) override;
   void CountVisible(vtkImageData* volume, brainshift::TissueCounts& counts) override;
   void SetDrawnPart(const brainshift::DrawnPart* part) override;
 

@@ -7,6 +7,7 @@
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Window/EvidenceLegend.h"
 #include "Representations/Window/RankParts.h"
+#include "Representations/Window/ReferencePart.h"
 #include "Representations/Workarounds/ParaViewFaults.h"
 
 #include "vtkCommunicator.h"
@@ -41,23 +42,6 @@ constexpr brainshift::Box NoBox{ 1e300, -1e300, 1e300, -1e300, 1e300, -1e300 };
 constexpr const char* Kept = ". The picture stays as it was, and strokes are kept";
 constexpr const char* WayOut = ". If memory lacks, start more ranks or lower RankHalo; each change "
                                "of RankHalo tries parts again";
-
-// The box of a grid's corners, mm.
-brainshift::Box cornersOf(const brainshift::Grid& grid)
-{
-  brainshift::Box box = NoBox;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const glm::dvec3 world = grid.worldFromGrid(side * glm::dvec3(grid.dimensions - 1));
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      box[2 * axis] = std::min(box[2 * axis], world[axis]);
-      box[2 * axis + 1] = std::max(box[2 * axis + 1], world[axis]);
-    }
-  }
-  return box;
-}
 
 // Calls visit for each representation that a view shows.
 template <typename Visit>
@@ -97,6 +81,7 @@ struct vtkWholeVolumeRepresentation::Taken
 
 vtkWholeVolumeRepresentation::vtkWholeVolumeRepresentation()
   : Shared(std::make_unique<brainshift::SharedVolume>())
+  , Reference(std::make_unique<brainshift::ReferencePart>())
   , Wanted(NoExtent)
 {
   this->Legend->PickableOff();
@@ -486,6 +471,8 @@ std::string vtkWholeVolumeRepresentation::TakeExtents(const Group& group, bool d
     group[i]->Drawn = taken[i].voxels;
     if (drawsParts)
     {
+      group[i]->Reference->cut(
+        taken[i].voxels, group[i]->ReadFor(taken[i].part.cut), group[i]->RankHalo);
       group[i]->Reported.clear(); // the same is new when it comes again
     }
     group[i]->Draw(taken[i].voxels);
@@ -536,7 +523,7 @@ vtkWholeVolumeRepresentation::Taken vtkWholeVolumeRepresentation::Measure(
   Taken taken;
   taken.whole = this->Shared->wholeOf(ranks, this->Part, all);
   taken.part.whole = taken.whole;
-  brainshift::Box tissue = cornersOf(taken.whole.grid);
+  brainshift::Box tissue = brainshift::boxAround(taken.whole.grid);
   if (drawsParts && problem.empty())
   {
     problem = brainshift::sentenceThrownBy(
@@ -609,13 +596,14 @@ void vtkWholeVolumeRepresentation::ReportOnce(const std::string& sentence)
 void vtkWholeVolumeRepresentation::WantVoxelsOf(
   const brainshift::WholeVolume& whole, const brainshift::Box& part)
 {
-  const brainshift::Extent needed = this->RestExtent(whole, this->Part, part, 0.0);
-  // What a large stroke asked for is given back after it was undone.
-  const brainshift::Extent most = this->RestExtent(whole, this->Part, part, 2.0 * this->RankHalo);
-  if (!brainshift::holds(this->Wanted, needed) || !brainshift::holds(most, this->Wanted))
-  {
-    this->Wanted = this->RestExtent(whole, this->Part, part, this->RankHalo);
-  }
+  brainshift::followBox(
+    this->Wanted, whole, this->LatticeOf(this->Part), this->ReadFor(part), this->RankHalo);
+}
+
+// The box (mm) in which voxels are read for a part of the deformed frame.
+brainshift::Box vtkWholeVolumeRepresentation::ReadFor(const brainshift::Box& part) const
+{
+  return brainshift::widened(part, this->Part ? this->ReadsBesideMm(this->Part) : 0.0);
 }
 
 void vtkWholeVolumeRepresentation::SetVisibility(bool visible)

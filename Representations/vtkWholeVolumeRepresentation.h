@@ -28,9 +28,11 @@ class vtkPVRenderView;
 namespace brainshift
 {
 class EvidenceLegend;
+class ReferencePart;
 class SharedVolume;
 class WindowText;
 struct DrawnPart;
+struct Lattice;
 struct TissueCounts;
 struct WholeVolume;
 }
@@ -95,9 +97,10 @@ private:
   virtual std::string WhyDataIsWhole() const { return {}; }
   /** Widens bounds (mm; x, y, z, least and greatest each) by where the volume's tissue can go. */
   virtual void WidenByTissue(vtkImageData*, double[6]) = 0;
-  /** The voxels whose tissue can come into a part of the deformed frame. */
-  virtual std::array<int, 6> RestExtent(
-    const brainshift::WholeVolume&, vtkImageData*, const std::array<double, 6>&, double haloMm) = 0;
+  /** The lattice that bends the data of a volume; null: nothing moves. */
+  virtual const brainshift::Lattice* LatticeOf(vtkImageData*) = 0;
+  /** How far (mm) beside a place of the picture voxels are read for it. */
+  virtual double ReadsBesideMm(vtkImageData*) const { return 0.0; }
   /** Adds the visible voxels of a part of the volume to those of a view. None (default): ranks that
    * draw nothing else get boxes of one size. */
   virtual void CountVisible(vtkImageData*, brainshift::TissueCounts&) {}
@@ -125,6 +128,7 @@ private:
   void Want(
     const brainshift::WholeVolume& whole, const brainshift::DrawnPart* part, std::string& problem);
   void WantVoxelsOf(const brainshift::WholeVolume& whole, const std::array<double, 6>& part);
+  std::array<double, 6> ReadFor(const std::array<double, 6>& part) const;
   void Draw(vtkImageData* volume);
   void WarnOfFirstRank(const std::string& reason);
   void ReportOnce(const std::string& sentence);
@@ -134,7 +138,8 @@ private:
   vtkSmartPointer<brainshift::EvidenceLegend> Evidence;
   bool ShowEvidence = false;
   std::unique_ptr<brainshift::SharedVolume> Shared;
-  vtkSmartPointer<vtkImageData> Part;  // of this process
+  std::unique_ptr<brainshift::ReferencePart> Reference; // of several ranks
+  vtkSmartPointer<vtkImageData> Part;                   // of this process
   vtkSmartPointer<vtkImageData> Drawn; // on several ranks: the voxels of the last picture
   std::string Problem;                 // why this rank's part did not come
   std::string Reported;                // why a rank could not take part

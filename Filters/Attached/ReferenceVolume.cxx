@@ -5,6 +5,7 @@
 #include "Filters/Attached/CarriedGrid.h"
 
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -24,6 +25,8 @@ constexpr const char* ShowName = "ReferenceShow";
 constexpr const char* LabelsName = "ReferenceIsLabels";
 constexpr const char* CavityName = "CavityVoxels";
 constexpr const char* CavityGridName = "CavityGrid";
+constexpr const char* WholeName = "ReferenceWhole";
+constexpr int WholeNumbers = 8;
 
 glm::dmat3 turnOf(const glm::dvec3& degrees)
 {
@@ -90,6 +93,21 @@ void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
     labels->InsertNextValue(1);
     fields->AddArray(labels);
   }
+  fields->RemoveArray(WholeName);
+  if (reference.whole)
+  {
+    vtkNew<vtkDoubleArray> whole;
+    whole->SetName(WholeName);
+    whole->SetNumberOfValues(WholeNumbers);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      whole->SetValue(axis, reference.whole->points[axis]);
+      whole->SetValue(3 + axis, reference.whole->first[axis]);
+    }
+    whole->SetValue(6, reference.whole->range.x);
+    whole->SetValue(7, reference.whole->range.y);
+    fields->AddArray(whole);
+  }
 }
 
 ReferenceVolume readReference(vtkDataObject* volume)
@@ -105,14 +123,32 @@ ReferenceVolume readReference(vtkDataObject* volume)
       : shown == 2.0              ? ReferenceShow::Reference
                                   : ReferenceShow::Both;
     reference.isLabels = fields->HasArray(LabelsName) != 0;
+    vtkDataArray* whole = fields->GetArray(WholeName);
+    if (whole && whole->GetNumberOfValues() == WholeNumbers)
+    {
+      const auto number = [&](int i) { return whole->GetComponent(i, 0); };
+      const auto index = [&](int i) { return glm::ivec3(number(i), number(i + 1), number(i + 2)); };
+      reference.whole = WholeReference{ index(0), index(3), { number(6), number(7) } };
+    }
   }
   return reference;
+}
+
+WholeReference wholeOf(const ReferenceVolume& reference)
+{
+  if (reference.whole)
+  {
+    return *reference.whole;
+  }
+  WholeReference whole{ reference.grid.dimensions, glm::ivec3(0), {} };
+  reference.voxels->GetFiniteRange(&whole.range[0], 0);
+  return whole;
 }
 
 void removeReference(vtkDataObject* volume)
 {
   for (const char* name :
-    { ReferenceVoxelsName, GridName, ShowName, LabelsName, CavityName, CavityGridName })
+    { ReferenceVoxelsName, GridName, ShowName, LabelsName, CavityName, CavityGridName, WholeName })
   {
     volume->GetFieldData()->RemoveArray(name);
   }

@@ -13,6 +13,9 @@
 ///                     interpolated value is one half.
 ///    CavityGrid       see attachGrid in CarriedArray.h; in the world, moved with the
 ///                     reference
+///    ReferenceWhole   8 doubles, only if one of several MPI ranks has a part of the reference:
+///                     points of the whole along x, y and z, which of them the first point of the
+///                     part is, and the whole's least and greatest finite value
 ///
 /// Colours and numbers that compare the volumes ignore the cavity.
 #ifndef BrainShift_ReferenceVolume_h
@@ -23,6 +26,8 @@
 
 #include "vtkDataArray.h" // for its smart pointer
 #include "vtkSmartPointer.h"
+
+#include <optional>
 
 class vtkDataObject;
 class vtkFieldData;
@@ -50,12 +55,21 @@ void attachPlaced(vtkFieldData* fields, const PlacedVoxels& placed, const char* 
 /** Reads what attachPlaced wrote. Voxels that are missing or do not fit their grid are null. */
 PlacedVoxels readPlaced(vtkFieldData* fields, const char* name, const char* gridName);
 
+/** The reference of which voxels are a part. */
+struct WholeReference
+{
+  glm::ivec3 points{ 0 };       ///< along each axis
+  glm::ivec3 first{ 0 };        ///< of them, that the part begins with
+  glm::dvec2 range{ 0.0, 0.0 }; ///< least and greatest finite value
+};
+
 /** What the arrays hold. */
 struct ReferenceVolume : PlacedVoxels
 {
   PlacedVoxels cavity; ///< 1 or 0; no voxels without a cavity
   ReferenceShow show = ReferenceShow::Both;
-  bool isLabels = false; ///< values are never blended
+  bool isLabels = false;               ///< values are never blended
+  std::optional<WholeReference> whole; ///< only if the voxels are a part
 };
 
 /** Name of the reference's voxels as attachReference needs them. */
@@ -76,6 +90,9 @@ VTKBRAINSHIFTFILTERS_EXPORT void attachReference(
  * Without a reference there is no cavity.
  */
 VTKBRAINSHIFTFILTERS_EXPORT ReferenceVolume readReference(vtkDataObject* volume);
+
+/** What a reference with voxels is a part of: itself, unless it says otherwise. */
+VTKBRAINSHIFTFILTERS_EXPORT WholeReference wholeOf(const ReferenceVolume& reference);
 
 /** Removes what attachReference wrote. */
 void removeReference(vtkDataObject* volume);

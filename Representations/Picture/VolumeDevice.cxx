@@ -337,14 +337,11 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
     return false;
   }
   SceneField space = scene.field;
-  if (!request.part.empty()) // samples count from the same box on each rank
+  if (!request.part.empty() && !deformation.deformed)
   {
-    const ValueLayout& layout = tissue.values.layout;
-    const auto textureFromVoxel = [&](const glm::dvec3& voxel) {
-      return voxel * layout.textureFromGrid + layout.textureOfGridZero;
-    };
-    space.spaceLow = deformation.deformed ? space.spaceLow : textureFromVoxel(request.wholeLow);
-    space.spaceHigh = deformation.deformed ? space.spaceHigh : textureFromVoxel(request.wholeHigh);
+    // Samples count from the same box on each rank.
+    space.spaceLow = tissue.values.layout.textureAt(request.wholeLow);
+    space.spaceHigh = tissue.values.layout.textureAt(request.wholeHigh);
   }
   scene.cuts = cutsOf(request.mapper, valuesToCrop(request), scene.frame, space);
   scene.cuts.partPlanes = partPlanesOf(request.part, scene.frame.worldFromTexture);
@@ -371,6 +368,14 @@ bool VolumeDevice::uploadReference(
   {
     gpu.remarks.emplace_back(
       "Only the middle cropping region cuts a reference that is shown alone");
+  }
+  if (!request.part.empty()) // as in uploadVolume
+  {
+    const TissueRequest& tissue = request.reference.tissue;
+    const glm::dvec3 first(request.reference.first);
+    const glm::dvec3 last(tissue.wholePoints - 1);
+    scene.cuts.spaceLow = tissue.values.layout.textureAt(-first);
+    scene.cuts.spaceHigh = tissue.values.layout.textureAt(last - first);
   }
   scene.cuts.partPlanes = partPlanesOf(request.part, scene.frame.worldFromTexture);
   scene.blending =

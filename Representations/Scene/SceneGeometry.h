@@ -33,6 +33,12 @@ struct ValueLayout
   bool ofCells = false;
 
   bool isWhole() const { return this->perTexel == glm::ivec3(1); }
+
+  /// Texture coordinates of a position in grid coordinates.
+  glm::dvec3 textureAt(const glm::dvec3& grid) const
+  {
+    return grid * this->textureFromGrid + this->textureOfGridZero;
+  }
 };
 
 /// Layout of values on `points` points a side, or in the cells between them.

@@ -8,13 +8,6 @@ namespace brainshift
 {
 namespace
 {
-glm::dvec2 rangeOf(vtkDataArray* scalars, int component)
-{
-  double range[2];
-  scalars->GetFiniteRange(range, component);
-  return { range[0], range[1] };
-}
-
 StoredScalar fromRangeToRange(const glm::dvec2& from, const glm::dvec2& to)
 {
   const double scale = from.y > from.x && to.y > to.x ? (to.y - to.x) / (from.y - from.x) : 1.0;
@@ -30,14 +23,14 @@ StoredScalar usualMapping(const glm::dvec2& reference, const glm::dvec2& volume)
 }
 
 StoredScalar valueFromReference(
-  vtkDataArray* reference, const TissueRequest& own, const glm::dvec2& range)
+  const ReferenceVolume& reference, const TissueRequest& own, const glm::dvec2& range)
 {
   if (range.x < range.y)
   {
     const double* ends = own.property->GetRGBTransferFunction()->GetRange();
     return fromRangeToRange(range, { ends[0], ends[1] });
   }
-  return usualMapping(rangeOf(reference, 0), own.range);
+  return usualMapping(wholeOf(reference).range, own.range);
 }
 
 SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, const glm::dvec2& range)
@@ -54,11 +47,13 @@ SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, cons
   reference.tissue.segment = {}; // the labels are the volume's
   reference.tissue.values = { carried.voxels, carried.grid,
     layoutOf(carried.grid.dimensions, false) };
-  reference.tissue.wholePoints = carried.grid.dimensions;
+  const WholeReference whole = wholeOf(carried);
+  reference.tissue.wholePoints = whole.points;
+  reference.first = whole.first;
   reference.tissue.labels = carried.isLabels;
   reference.tissue.nearest =
     carried.isLabels || own.property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION;
-  reference.tissue.mapped = valueFromReference(carried.voxels, own, range);
+  reference.tissue.mapped = valueFromReference(carried, own, range);
   return reference;
 }
 

@@ -8,7 +8,6 @@
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Tissue/TissueTextures.h"
 
-class vtkDataArray;
 class vtkDataObject;
 
 namespace brainshift
@@ -16,8 +15,9 @@ namespace brainshift
 /// A reference, and how it is drawn.
 struct SceneReference
 {
-  TissueRequest tissue; ///< Without scalars there is no reference.
-  PlacedVoxels cavity;  ///< What the colours ignore.
+  TissueRequest tissue;  ///< Without scalars there is no reference.
+  glm::ivec3 first{ 0 }; ///< Of the whole reference's points, that the tissue begins with.
+  PlacedVoxels cavity;   ///< What the colours ignore.
   ReferenceShow show = ReferenceShow::Both;
   double agreementMm = 1.0; ///< Surfaces half as far apart count as one.
   ColorPair colors;         ///< Of the volume and of the reference.
@@ -34,7 +34,7 @@ SceneReference referenceOf(
 /// The value of the volume that a scalar of its reference stands for, in 3D and in slices: colours
 /// and opacities are those of the volume. `range`: see referenceOf.
 StoredScalar valueFromReference(
-  vtkDataArray* reference, const TissueRequest& own, const glm::dvec2& range);
+  const ReferenceVolume& reference, const TissueRequest& own, const glm::dvec2& range);
 
 /// The mapping from the least and the greatest scalar of both, if no range is given. Scalars keep
 /// their numbers if the ranges have at least half in common; else one range maps to the other.

@@ -229,8 +229,53 @@ Box around(const Box& a, const Box& b)
   return both;
 }
 
+Box boxAround(const Grid& grid)
+{
+  Box box{ 1e300, -1e300, 1e300, -1e300, 1e300, -1e300 };
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 world = grid.worldFromGrid(side * glm::dvec3(grid.dimensions - 1));
+    box = around(box, { world.x, world.x, world.y, world.y, world.z, world.z });
+  }
+  return box;
+}
+
+Box commonBox(const Box& a, const Box& b)
+{
+  Box both{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double low = a[2 * axis];
+    const double high = a[2 * axis + 1];
+    both[2 * axis] = std::clamp(b[2 * axis], low, high);
+    both[2 * axis + 1] = std::clamp(b[2 * axis + 1], low, high);
+  }
+  return both;
+}
+
+Box widened(const Box& box, double mm)
+{
+  Box wide = box;
+  for (int side = 0; side < 6; ++side)
+  {
+    wide[side] += side % 2 ? mm : -mm;
+  }
+  return wide;
+}
+
 Extent restExtent(const WholeVolume& volume, const Lattice* lattice, const Box& part, double haloMm)
 {
   return restExtent(volume, lattice, inGrid(volume.grid, part), haloMm);
+}
+
+void followBox(
+  Extent& wanted, const WholeVolume& volume, const Lattice* lattice, const Box& part, double haloMm)
+{
+  const Extent most = restExtent(volume, lattice, part, 2.0 * haloMm);
+  if (!holds(wanted, restExtent(volume, lattice, part, 0.0)) || !holds(most, wanted))
+  {
+    wanted = restExtent(volume, lattice, part, haloMm);
+  }
 }
 }

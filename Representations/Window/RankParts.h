@@ -84,9 +84,23 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT Box withoutOuterSides(const Box& part, const
 /** The smallest box that holds two. */
 Box around(const Box& a, const Box& b);
 
+/** The box (mm, world axes) of a grid's points. */
+Box boxAround(const Grid& grid);
+
+/** What two boxes have in common; if they have nothing, the side of `a` that is nearer. */
+Box commonBox(const Box& a, const Box& b);
+
+/** A box with so much more (mm) at each side. */
+Box widened(const Box& box, double mm);
+
 /** restExtent of a box (mm, world axes). */
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT Extent restExtent(
   const WholeVolume& volume, const Lattice* lattice, const Box& part, double haloMm);
+
+/** Makes an extent that of a box and the halo around it, unless it still has what the box needs.
+ * What a large stroke asked for is given back after it was undone. */
+void followBox(Extent& wanted, const WholeVolume& volume, const Lattice* lattice, const Box& part,
+  double haloMm);
 }
 
 #endif

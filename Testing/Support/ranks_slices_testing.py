@@ -185,6 +185,11 @@ def answer_comparisons(found):
         display.ShowEvidence = 0
     display.RankHalo = 0.0
     found["comparison Local similarity, no halo"] = picture(view)
+    compare.Show = "Reference"
+    drawn(found, "comparison, the reference alone", view, display)
+    compare.Show, display.SliceComparison = "Both", "Wipe"
+    compare.ReferenceTranslation = (-9.0, 6.0, 4.0)
+    drawn(found, "comparison, moved far", view, display)
     simple.Delete(view)
 
 

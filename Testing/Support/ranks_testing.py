@@ -395,6 +395,25 @@ def answer_comparison(found):
     found["no comparison"] = picture(view)
     display.VolumeComparison = 1
     drawn(found, "red and green", display, view)
+    answer_reference_alone(found)
+
+
+def answer_reference_alone(found):
+    """A reference of its own size, moved, of which each rank's card holds a part."""
+    import brainshift
+    compared = simple.CompareVolumes(
+        Input=bent(), Reference=simple.Wavelet(WholeExtent=[-30, 24] * 3), Show="Reference",
+        ReferenceRotation=[0, 12, 5])
+    view = view_along((-0.5, 0.3, -1), MIDDLE, 150.0, size=SIZE)
+    display = show_volume(compared, view, "Deformed Volume", COLORS, OPACITIES, array="RTData",
+                          shade=True)
+    display.AmbientOcclusion, display.RankHalo = 0, 2.0
+    for name, shift in (("", (0, 0, 0)), (", moved", (1.0, -0.5, 1.0)), (", far", (9, 7, -8))):
+        compared.ReferenceTranslation = shift
+        found["large reference" + name] = picture(view)
+        found["bytes reference" + name] = numpy.array([brainshift.gpu(display)["gpuOtherBytes"]])
+    display.ScalarOpacityFunction.Points = [0, 0, 0.5, 0, 200, 0, 0.5, 0, 210, 1, 0.5, 0]
+    found["large reference opaque"] = picture(view)
 
 
 def answer_stock(found):

@@ -79,7 +79,7 @@ TEST(HostMemory, ProcessesOfOneMachineShareWhatIsFree)
 {
   constexpr long long Here = 7;
   constexpr long long Elsewhere = 8;
-  const std::vector<MemoryNeed> needs{ { Here, 3.0 * GB }, { Elsewhere, 9.0 * GB },
+  const std::vector<ProcessNeed> needs{ { Here, 3.0 * GB }, { Elsewhere, 9.0 * GB },
     { Here, 2.0 * GB } };
   EXPECT_EQ(sharedMemoryProblem("It", needs, 0, 5.0 * GB), "");
   EXPECT_EQ(sharedMemoryProblem("It", needs, 1, 9.0 * GB), "");
