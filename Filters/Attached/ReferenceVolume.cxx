@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/ReferenceVolume.h"
+#include "Common/Numbers.h"
 #include "Common/SharedArray.h"
 
 #include "Filters/Attached/CarriedGrid.h"
@@ -38,6 +39,29 @@ glm::dmat3 turnOf(const glm::dvec3& degrees)
     turn = glm::rotate(turn, glm::radians(degrees[axis]), about);
   }
   return glm::dmat3(turn);
+}
+
+// None without numbers that can be of a whole: those of files may be anything.
+std::optional<WholeReference> readWhole(vtkFieldData* fields)
+{
+  vtkDataArray* numbers = fields->GetArray(WholeName);
+  if (!numbers || numbers->GetNumberOfComponents() != 1 ||
+    numbers->GetNumberOfTuples() != WholeNumbers)
+  {
+    return std::nullopt;
+  }
+  constexpr double mostPoints = 1 << 30; // an integer holds it
+  glm::dvec3 indices[2];                 // points, first
+  for (int i = 0; i < 6; ++i)
+  {
+    indices[i / 3][i % 3] = numbers->GetComponent(i, 0);
+    if (!isWhole(numbers->GetComponent(i, 0), i < 3 ? 1 : 0, mostPoints))
+    {
+      return std::nullopt;
+    }
+  }
+  return WholeReference{ glm::ivec3(indices[0]), glm::ivec3(indices[1]),
+    { numbers->GetComponent(6, 0), numbers->GetComponent(7, 0) } };
 }
 }
 
@@ -123,13 +147,7 @@ ReferenceVolume readReference(vtkDataObject* volume)
       : shown == 2.0              ? ReferenceShow::Reference
                                   : ReferenceShow::Both;
     reference.isLabels = fields->HasArray(LabelsName) != 0;
-    vtkDataArray* whole = fields->GetArray(WholeName);
-    if (whole && whole->GetNumberOfValues() == WholeNumbers)
-    {
-      const auto number = [&](int i) { return whole->GetComponent(i, 0); };
-      const auto index = [&](int i) { return glm::ivec3(number(i), number(i + 1), number(i + 2)); };
-      reference.whole = WholeReference{ index(0), index(3), { number(6), number(7) } };
-    }
+    reference.whole = readWhole(fields);
   }
   return reference;
 }

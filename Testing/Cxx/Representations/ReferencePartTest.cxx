@@ -6,14 +6,14 @@
 
 #include "Filters/Attached/ReferenceVolume.h"
 
-#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkShortArray.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 #include <optional>
 
 using namespace brainshift;
@@ -159,6 +159,22 @@ TEST(ReferencePart, KnowsTheWhole)
   EXPECT_EQ(all.voxels, carrier.whole().voxels) << "all of it is not copied";
   EXPECT_EQ(wholeOf(all).points, Sides);
   EXPECT_EQ(wholeOf(all).first, glm::ivec3(0));
+}
+
+TEST(ReferencePart, WhatAFileSaysOfTheWholeMayBeWrong)
+{
+  Carrier carrier;
+  const vtkSmartPointer<vtkImageData> volume = vtkSmartPointer<vtkImageData>::New();
+  ReferenceVolume reference = carrier.whole();
+  reference.whole = WholeReference{ Sides, { 0, 0, 0 }, { 0.0, 1.0 } };
+  attachReference(volume, reference);
+  EXPECT_TRUE(readReference(volume).whole);
+  vtkDataArray* numbers = volume->GetFieldData()->GetArray("ReferenceWhole");
+  for (const double wrong : { std::nan(""), -1.0, 2.5, 1e12 })
+  {
+    numbers->SetComponent(2, 0, wrong);
+    EXPECT_FALSE(readReference(volume).whole) << wrong;
+  }
 }
 
 TEST(ReferencePart, KeepsItsArraysWhileTheyHaveWhatIsNeeded)
