@@ -121,7 +121,7 @@ int vtkCompareVolumes::RequestData(
   cavity.grid = movedRigidly(cavity.grid, motion);
   attachReference(output,
     { { this->Internal->Voxels.as(ReferenceVoxelsName, scalars), movedRigidly(grid, motion) },
-      cavity, static_cast<ReferenceShow>(this->Show), isLabelMap(image) });
+      cavity, static_cast<ReferenceShow>(this->Show), isLabelMap(image), {} });
   warnAnew(this,
     wordsOnSides({ "the volume", worldAxesOf(output) }, { "the reference", worldAxesOf(image) }),
     this->Internal->Warning);

@@ -11,6 +11,7 @@
 #include "Interaction/Workarounds/QuietLinks.h"
 #include "Interaction/Workarounds/RevivedViews.h"
 #include "Interaction/Workarounds/Selections.h"
+#include "Interaction/Workarounds/Sessions.h"
 #include "Interaction/Workarounds/UndoneLayouts.h"
 #include "Plugin/ComparisonLegend.h"
 #include "Plugin/FirstLook.h"
@@ -149,7 +150,7 @@ void BrainShiftBehavior::watchSource(pqPipelineSource* source)
     [](pqPipelineSource* updated) {
       if (updated == pqActiveObjects::instance().activeSource()) // else the panel does not show it
       {
-        updated->getProxy()->UpdatePropertyInformation();
+        brainshift::pull(updated->getProxy());
       }
     });
 }

@@ -475,6 +475,10 @@ std::string vtkWholeVolumeRepresentation::TakeExtents(const Group& group, bool d
         taken[i].voxels, group[i]->ReadFor(taken[i].part.cut), group[i]->RankHalo);
       group[i]->Reported.clear(); // the same is new when it comes again
     }
+    else
+    {
+      *group[i]->Reference = brainshift::ReferencePart();
+    }
     group[i]->Draw(taken[i].voxels);
   }
   return {};

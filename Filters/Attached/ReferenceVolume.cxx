@@ -137,7 +137,8 @@ void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
 ReferenceVolume readReference(vtkDataObject* volume)
 {
   vtkFieldData* fields = volume->GetFieldData();
-  ReferenceVolume reference{ readPlaced(fields, ReferenceVoxelsName, GridName), {} };
+  ReferenceVolume reference;
+  static_cast<PlacedVoxels&>(reference) = readPlaced(fields, ReferenceVoxelsName, GridName);
   if (reference.voxels)
   {
     reference.cavity = readPlaced(fields, CavityName, CavityGridName);

@@ -158,9 +158,9 @@ std::optional<ElectrodeFrame> electrodeFrame(const std::string& tableName, Landm
   {
     const std::string other = otherBeside(tableName);
     list.notes.push_back(other.empty()
-        ? "has no coordsystem.json beside it; its unit counts as mm"
+        ? "has no coordsystem.json beside it; the unit counts as mm unless the table names it"
         : "has no coordsystem.json of its own: " + shownWords(other) +
-          " is about other positions; its unit counts as mm, which may be wrong");
+          " is about other positions; the unit counts as mm unless the table names it");
     return ElectrodeFrame();
   }
   ElectrodeFrame electrodes;

@@ -3,6 +3,7 @@
 
 #include "Interaction/Cases/PythonCall.h"
 #include "Interaction/Commands/Application.h"
+#include "Interaction/Edits/LiveRun.h"
 #include "Interaction/Edits/RefineEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
@@ -97,6 +98,11 @@ void CaseOrders::endEdits()
   if (pqPipelineSource* deformation = this->bent())
   {
     RefineEditor::of(deformation)->stop();
+    // Its trial position would be that of the cavity and of what is exported.
+    for (pqPipelineSource* comparison : comparisonsOf(deformation))
+    {
+      LiveRun::stopOn(comparison);
+    }
     StrokeEditor::of(deformation)->cancel();
   }
 }

@@ -77,7 +77,7 @@ VolumeLook makeVolumeLook(pqDataRepresentation* display, const QString& name)
   vtkSMPropertyHelper(report, "Look").Set(name.toUtf8().constData());
   report->UpdateVTKObjects();
   report->InvokeCommand("Measure");
-  report->UpdatePropertyInformation();
+  pull(report);
   look.kind = textOf(report, "Kind");
   look.names = textOf(report, "Names").split('\n', Qt::SkipEmptyParts);
   look.colors = vtkSMPropertyHelper(report, "Colors").GetDoubleArray();

@@ -4,6 +4,7 @@
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Reports.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -40,7 +41,7 @@ vtkSMProxy* latticeOf(vtkSMProxy* deformation)
 // The rigid part of a fit: measured from rest, mm.
 glm::dmat4 rigidOf(vtkSMProxy* fit)
 {
-  fit->UpdatePropertyInformation(fit->GetProperty("Rigid"));
+  pull(fit, fit->GetProperty("Rigid"));
   const std::vector<double> rows = vtkSMPropertyHelper(fit, "Rigid").GetDoubleArray();
   return rows.size() == 16 ? glm::transpose(glm::make_mat4(rows.data())) : glm::dmat4(1.0);
 }

@@ -3,6 +3,7 @@
 
 #include "Interaction/Commands/Application.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/ServerPicture.h"
 #include "Interaction/Workarounds/Updates.h"
 
 #include <pqApplicationCore.h>
@@ -108,6 +109,7 @@ void draw(pqView* view, const std::vector<pqDataRepresentation*>& changed)
     progress->lockProgress(view);
     if (isDrawnByServer(view, changed))
     {
+      ServerPicture::drawOver(view);
       drawAhead(proxy, changed);
     }
     else

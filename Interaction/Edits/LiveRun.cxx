@@ -4,6 +4,7 @@
 #include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/Reports.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqPipelineSource.h>
 #include <pqServer.h>
@@ -12,7 +13,6 @@
 #include <vtkPVXMLElement.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxyManager.h>
-#include <vtkSMSession.h>
 #include <vtkSMSessionProxyManager.h>
 
 #include <QApplication>
@@ -121,30 +121,30 @@ QString LiveRun::beginRun(const char* command)
   this->OfOthers->Disconnect();
   this->Proxy->UpdateVTKObjects();
   this->Proxy->InvokeCommand(command);
-  this->Proxy->UpdatePropertyInformation();
+  pull(this->Proxy);
   const QString problem = this->text("Problem");
   return problem.isEmpty() ? QString() : problem + ".";
 }
 
 bool LiveRun::advance()
 {
-  if (!this->Proxy || !this->Proxy->GetSession()->GetIsAlive())
+  if (!hasServer(this->Proxy))
   {
     return false;
   }
   this->Proxy->InvokeCommand("Step");
-  this->Proxy->UpdatePropertyInformation();
+  pull(this->Proxy);
   return this->text("Problem").isEmpty();
 }
 
 bool LiveRun::settle()
 {
-  if (!this->Proxy || !this->Proxy->GetSession()->GetIsAlive())
+  if (!hasServer(this->Proxy))
   {
     return false;
   }
   this->Proxy->InvokeCommand("Stop");
-  this->Proxy->UpdatePropertyInformation();
+  pull(this->Proxy);
   return true;
 }
 

@@ -8,13 +8,13 @@
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Reports.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqPipelineSource.h>
 #include <pqUndoStack.h>
 
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMSession.h>
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
@@ -379,7 +379,7 @@ void RefineEditor::show()
 
 void RefineEditor::takeStep()
 {
-  if (!this->Held || !this->Held->GetSession()->GetIsAlive())
+  if (!hasServer(this->Held))
   {
     this->abandon(tr("The lattice of the refinement was deleted, so the refinement ended."));
     return;
@@ -472,6 +472,7 @@ void RefineEditor::putResult()
       SM_SCOPED_TRACE(RegisterPipelineProxy).arg("proxy", lattice);
       registerQuietly(lattice, "refined");
     }
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", lattice);
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", deformation);
     this->putIn(lattice, this->Points);
     lattice->SetAnnotation("BrainShift.Refined", this->found().constData());
@@ -480,7 +481,7 @@ void RefineEditor::putResult()
   }
   vtkSMProxy* proxy = this->Source->getProxy();
   vtkSMSourceProxy::SafeDownCast(proxy)->UpdatePipeline();
-  proxy->UpdatePropertyInformation(proxy->GetProperty("MinimumJacobian"));
+  pull(proxy, proxy->GetProperty("MinimumJacobian"));
   this->Figures.smallestDeterminant = vtkSMPropertyHelper(proxy, "MinimumJacobian").GetAsDouble();
 }
 

@@ -7,6 +7,7 @@
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Reports.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqPipelineSource.h>
 
@@ -128,7 +129,7 @@ void LandmarkList::refresh()
     {
       fit->UpdatePipeline(); // a hidden volume does not update it
     }
-    fit->UpdatePropertyInformation();
+    pull(fit);
     this->readInputs(fit);
     this->readPicked(fit);
     this->readFigures(fit);

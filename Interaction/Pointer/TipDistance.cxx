@@ -2,6 +2,7 @@
 #include "Interaction/Pointer/TipDistance.h"
 
 #include "Interaction/Edits/FitEditor.h"
+#include "Interaction/Workarounds/Sessions.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -176,7 +177,7 @@ std::optional<double> TipDistance::of(
   progress->lockProgress(deformation); // its bar would lay out the window anew
   this->Filter->UpdatePipeline();
   progress->unlockProgress(deformation);
-  this->Filter->UpdatePropertyInformation(this->Filter->GetProperty("Mean"));
+  pull(this->Filter, this->Filter->GetProperty("Mean"));
   const double distance = vtkSMPropertyHelper(this->Filter, "Mean").GetAsDouble();
   return std::isfinite(distance) ? std::optional<double>(distance) : std::nullopt;
 }

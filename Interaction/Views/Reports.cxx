@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Views/Reports.h"
 
+#include "Interaction/Workarounds/Sessions.h"
+
 #include <pqUndoStack.h>
 
 #include <vtkSMProperty.h>
@@ -39,7 +41,7 @@ namespace
 vtkSMPropertyHelper askedAnew(vtkSMProxy* report, const char* property)
 {
   report->UpdateVTKObjects();
-  report->UpdatePropertyInformation(report->GetProperty(property));
+  pull(report, report->GetProperty(property));
   return vtkSMPropertyHelper(report, property);
 }
 }

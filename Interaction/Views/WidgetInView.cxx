@@ -16,6 +16,7 @@ namespace brainshift
 {
 WidgetInView::WidgetInView(pqRenderView* view, vtkLatticeWidget::HandlerType handler)
   : View(view)
+  , Picture(new ServerPicture(view))
 {
   SCOPED_UNDO_EXCLUDE();
   vtkSMSessionProxyManager* manager = view->getProxy()->GetSessionProxyManager();
@@ -34,6 +35,7 @@ WidgetInView::WidgetInView(pqRenderView* view, vtkLatticeWidget::HandlerType han
 WidgetInView::~WidgetInView()
 {
   SCOPED_UNDO_EXCLUDE();
+  delete this->Picture;
   this->widget()->SetHandler({});
   this->show(false);
   if (this->View)

@@ -4,6 +4,8 @@
 #ifndef BrainShift_WidgetInView_h
 #define BrainShift_WidgetInView_h
 
+#include "Interaction/Views/ServerPicture.h"
+
 #include <vtkLatticeWidget.h>
 #include <vtkSmartPointer.h>
 
@@ -28,6 +30,7 @@ private:
   void show(bool on);
 
   QPointer<pqRenderView> View;
+  QPointer<ServerPicture> Picture;
   vtkSmartPointer<vtkSMProxy> Proxy;
 };
 }

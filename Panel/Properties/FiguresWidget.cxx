@@ -5,6 +5,7 @@
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Workarounds/Docks.h"
+#include "Interaction/Workarounds/Sessions.h"
 #include "Interaction/Workarounds/Updates.h"
 #include "Panel/Parts/Plots.h"
 
@@ -130,7 +131,7 @@ void FiguresWidget::addCurve(vtkSMProperty* property)
 
 void FiguresWidget::showCurve()
 {
-  this->proxy()->UpdatePropertyInformation(this->Curve);
+  pull(this->proxy(), this->Curve);
   const std::vector<double> lengths = vtkSMPropertyHelper(this->Curve).GetDoubleArray();
   this->Plot->setLengths(QList<double>(lengths.begin(), lengths.end()));
   this->Missing->setVisible(
@@ -154,12 +155,12 @@ void FiguresWidget::showFigures()
 {
   for (const auto& [property, figure] : this->Figures)
   {
-    this->proxy()->UpdatePropertyInformation(property);
+    pull(this->proxy(), property);
     figure->setText("<b>" + valueOf(property) + "</b>");
   }
   for (const auto& [property, plot] : this->Histograms)
   {
-    this->proxy()->UpdatePropertyInformation(property);
+    pull(this->proxy(), property);
     const std::vector<double> numbers = vtkSMPropertyHelper(property).GetDoubleArray();
     const bool any = !numbers.empty();
     plot->setHistogram(any ? numbers.front() : 0.0,

@@ -6,6 +6,7 @@
 #include "Interaction/Edits/RefineEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Workarounds/Docks.h"
+#include "Interaction/Workarounds/Sessions.h"
 #include "Panel/Parts/Advice.h"
 
 #include <pqPipelineSource.h>
@@ -157,7 +158,7 @@ void ResultWidget::showFigures()
     this->Jacobian->setText(QString());
     return;
   }
-  this->proxy()->UpdatePropertyInformation(); // all figures in one round trip to a server
+  pull(this->proxy()); // all figures in one round trip to a server
   this->Displacement->setText(
     tr("<b>%1 mm</b>").arg(this->figure("MaximumDisplacement"), 0, 'f', 1));
   const double determinant = this->figure("MinimumJacobian");

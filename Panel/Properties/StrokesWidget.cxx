@@ -5,6 +5,7 @@
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Workarounds/Docks.h"
+#include "Interaction/Workarounds/Sessions.h"
 #include "Panel/Landmarks/LandmarkTable.h"
 #include "Panel/Measured/PullsPane.h"
 #include "Panel/Registered/RefinePane.h"
@@ -112,12 +113,12 @@ void StrokesWidget::followResult()
   this->Strokes->setLatticeSpacing(spacing);
   if (vtkSMProperty* shares = this->proxy()->GetProperty("StrokeShares"))
   {
-    this->proxy()->UpdatePropertyInformation(shares);
+    pull(this->proxy(), shares);
     this->Strokes->setAppliedShares(vtkSMPropertyHelper(shares).GetDoubleArray());
   }
   if (vtkSMProperty* reaches = this->proxy()->GetProperty("StrokeReaches"))
   {
-    this->proxy()->UpdatePropertyInformation(reaches);
+    pull(this->proxy(), reaches);
     this->Strokes->setReaches(vtkSMPropertyHelper(reaches).GetDoubleArray());
   }
 }

@@ -54,7 +54,7 @@ th, td { text-align: left; padding: 0.4rem 0.8rem 0.4rem 0; border-bottom: 1px s
 #: A case to run, the key that its result gets, and the memory (bytes) that it is expected to need.
 _Planned = collections.namedtuple("_Planned", "case key bytes")
 
-Done = collections.namedtuple("Done", "name state seconds problem figures folder")
+Done = collections.namedtuple("Done", "name state seconds problem figures folder doubts")
 Done.__doc__ = """A case of a batch.
 
 - `name`: as in the manifest
@@ -63,6 +63,7 @@ Done.__doc__ = """A case of a batch.
 - `problem`: why it failed, or an empty text
 - `figures`: dictionary of numbers, see the table
 - `folder`: path of its results
+- `doubts`: why figures may be wrong, a list of sentences, see `Case.doubts`
 """
 
 
@@ -211,7 +212,7 @@ class _Running:
             result = {"problem": problem, "figures": {}}
         state = "failed" if result["problem"] else "done"
         return Done(self.case["name"], state, seconds, result["problem"], result["figures"],
-                    self.folder)
+                    self.folder, result.get("doubts", []))
 
 
 def _read(file):
@@ -232,7 +233,8 @@ def _kept(planned, folder):
     outputs = result.get("outputs")
     if outputs is None or not all(os.path.exists(os.path.join(folder, name)) for name in outputs):
         return None
-    return Done(planned.case["name"], "kept", 0.0, "", result["figures"], folder)
+    return Done(planned.case["name"], "kept", 0.0, "", result["figures"], folder,
+                result.get("doubts", []))
 
 
 def _fits(running, planned, most):
@@ -249,16 +251,18 @@ def _fits(running, planned, most):
 def _write_table(done, folder):
     with open(os.path.join(folder, TABLE), "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("name", "state", "seconds", *FIGURES, "problem"))
+        writer.writerow(("name", "state", "seconds", *FIGURES, "problem", "doubts"))
         for one in done:
             writer.writerow((one.name, one.state, f"{one.seconds:.1f}",
-                             *(one.figures.get(name, "") for name in FIGURES), one.problem))
+                             *(one.figures.get(name, "") for name in FIGURES), one.problem,
+                             " | ".join(one.doubts)))
 
 
 def _write_index(done, folder, count):
     from .reporting import NOTICE
 
-    head = "".join(f"<th>{escape(name)}</th>" for name in ("case", "state", *FIGURES, "problem"))
+    head = "".join(f"<th>{escape(name)}</th>"
+                   for name in ("case", "state", *FIGURES, "problem", "doubts"))
     rows = []
     for one in done:
         page = os.path.join(one.folder, PAGE)
@@ -270,7 +274,8 @@ def _write_index(done, folder, count):
         cells = "".join("<td>" + ("" if value is None else f"{value:.2f}") + "</td>"
                         for value in figures)
         rows.append(f'<tr class="{one.state}"><td>{name}</td><td>{one.state}</td>{cells}'
-                    f"<td>{escape(one.problem)}</td></tr>")
+                    f"<td>{escape(one.problem)}</td>"
+                    f"<td>{'<br>'.join(escape(doubt) for doubt in one.doubts)}</td></tr>")
     failed = sum(one.state == "failed" for one in done)
     heading = f"{count} cases" if len(done) == count else f"{len(done)} of {count} cases so far"
     with open(os.path.join(folder, INDEX), "w", encoding="utf-8") as file:
@@ -310,7 +315,7 @@ def _run_all(cases, steps, out, most, timeout, progress):
         _told(progress, done, (len(results), len(cases)))
 
     def fail(case, error):
-        end(Done(case["name"], "failed", 0.0, str(error), {}, os.path.join(out, case["name"])))
+        end(Done(case["name"], "failed", 0.0, str(error), {}, os.path.join(out, case["name"]), []))
     for case in cases:
         try:
             planned = _plan(case, steps)

@@ -9,7 +9,7 @@ from .arguments import positive, vector
 from .casesources import (
     MARK, OPENED, RESULT, SETTING, all_values_of, digest_of, doubt_about_files, free_name,
     give_name, inputs_of, kept, marks, opened, require_kind, result_name, settings_at, sources,
-    sources_with, stem, upstream, values_of)
+    sources_with, stem, upstream)
 from .exporting import Exports
 from .files import reason_of
 from .fitting import Fit, _shared, forget_former, is_kind, is_unused, own
@@ -285,7 +285,7 @@ class Case(Steps, Moments, TimedTraces, Resections, Exports):
         settings = [getattr(self, name) for name, kind in vars(Case).items()
                     if isinstance(kind, _Setting)]
         values = {each[0]: each for each in [
-            *all_values_of(filter(None, roles)), *(values_of(part) for part in parts if part)]}
+            *all_values_of(filter(None, roles + parts))]}
         return list(values.values()), settings, self.opening_ball()
 
     bent = property(lambda self: self.part("bent"))

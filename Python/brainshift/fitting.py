@@ -137,12 +137,18 @@ class Fit:
                 words.append(f"{len(counted)} {name} with residuals of {rms:.2f} mm (RMS)")
         if left_out:
             words.append(left_out)
-        cosine = (numpy.trace(self.rigid[:3, :3]) - 1.0) / 2.0
-        degrees = numpy.degrees(numpy.arccos(numpy.clip(cosine, -1.0, 1.0)))
-        words.append(f"rotation {degrees:.1f} degrees")
+        words.append(f"rotation {self.degrees:.1f} degrees")
         words.append(f"applied {100.0 * self.share:.3g} %")
         words.append(f"deviations x {self.calibration:.2f}")
         return ", ".join(words) + (f". {self.warning}" if self.warning else "")
+
+    @property
+    def degrees(self):
+        """The angle by which the rigid part turns."""
+        import numpy
+
+        cosine = (numpy.trace(self.rigid[:3, :3]) - 1.0) / 2.0
+        return float(numpy.degrees(numpy.arccos(numpy.clip(cosine, -1.0, 1.0))))
 
     @property
     def left_out_of_used(self):

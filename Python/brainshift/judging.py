@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Judges a deformation by landmarks that were not used to find it."""
 
-from .fitting import _names, _points
+from .fitting import _names, _point_axes, _points
 from .maps import deformed_from_rest
+from .views import warn_of_axes
 
 
 class TargetErrors:
@@ -84,13 +85,16 @@ def tre(filter, rest, measured, by_order=False):
       pairs results of `read_points` by name if both have names; points without a name are then
       unpaired.
 
-    Returns a `TargetErrors`.
+    Returns a `TargetErrors`. Warns if results of `read_points`, which are RAS, and the volume have
+    other world axes, or those of the volume are unknown.
 
     Raises `ValueError` if an array has another shape, the numbers of points differ, or no name is
     on both lists.
     """
     import numpy
 
+    if _point_axes(rest, measured):
+        warn_of_axes(filter, "the landmarks", "RAS")
     places, targets, names, unpaired = _paired(rest, measured, by_order)
     found = deformed_from_rest(filter, places)
     return TargetErrors(numpy.linalg.norm(found - targets, axis=1),

@@ -49,22 +49,28 @@ def link(proxies, group, name):
     from paraview import servermanager
 
     manager = servermanager.ProxyManager()
-    made = servermanager.vtkSMPropertyLink()
+    registered = f"{PREFIX}{name}{proxies[0].SMProxy.GetGlobalIDAsString()}"
     linked = [proxy.SMProxy.GetGlobalID() for proxy in proxies]
 
-    def add(members):
+    def add(made, members):
         for proxy, direction in itertools.product(members, (made.INPUT, made.OUTPUT)):
             made.AddLinkedProperty(proxy, name, direction)
 
+    # It holds no link. One that ends with the last of its proxies, while that lets go of what
+    # observes it, would search the list that goes for ever.
     def leave_out(*_):
+        made = manager.SMProxyManager.GetRegisteredLink(registered)
+        if made is None:
+            return
         left = [proxy for proxy in _registered(manager, group) if proxy.GetGlobalID() in linked]
         if made.GetNumberOfLinkedObjects() > 2 * len(left):  # in a window QuietLinks was faster
             with _unrecorded(servermanager.vtkSMProxyManager.GetProxyManager()):
                 made.RemoveAllLinks()
-                add(left)
+                add(made, left)
 
     with _unrecorded(servermanager.vtkSMProxyManager.GetProxyManager()):
-        manager.RegisterLink(f"{PREFIX}{name}{proxies[0].SMProxy.GetGlobalIDAsString()}", made)
-        add([proxy.SMProxy for proxy in proxies])
+        made = servermanager.vtkSMPropertyLink()
+        manager.RegisterLink(registered, made)
+        add(made, [proxy.SMProxy for proxy in proxies])
     for proxy in proxies:
         proxy.SMProxy.AddObserver("DeleteEvent", leave_out)

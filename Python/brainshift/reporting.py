@@ -11,7 +11,7 @@ from .casesources import paths_of
 from .drawing import png
 from .figures import _strength_kept, _versions
 from .files import figures_of
-from .fitting import Fit, away_from_fit
+from .fitting import Fit, away_from_fit, rigid_of
 from .grids import sheet_left_out
 from .maps import rest_from_deformed
 from .rolefiles import files_of, hash_of, is_dicom, is_store
@@ -120,6 +120,9 @@ def _distances(case):
     errors = case.landmark_errors()
     if errors is not None:
         meaning = "Distance of landmarks from their measured positions."
+        if rigid_of(case.bent.Lattice) is not None:
+            meaning += (" With the deformation, after the rigid motion of the fit, which pictures "
+                        "and exported files lack.")
         if case.landmarks_fitted_before():
             meaning += " A fit before the refinement used them, so no accuracy follows."
         elif case.fits_landmarks():

@@ -5,6 +5,7 @@ from .casesources import kept, stem
 from .fitting import Fit, away_from_fit, is_kind, rigid_of
 from .images import Labels, fetched, interpolated, source_of
 from .maps import deformed_from_rest, rest_from_deformed
+from .views import warn_of_axes, world_axes
 
 #: Distances (mm) at which the deformation and its draws are evaluated; linear in between. The
 #: covariance of a fit falls over 60 mm, a cell of a usual lattice has 10 mm.
@@ -302,6 +303,8 @@ def resect(filter, tumour, cavity, tumour_labels=(), cavity_labels=(), compare=N
         raise ValueError("the fit to landmarks has a rigid motion that is not in the deformation, "
                          "so the tumour would not be compared with the cavity where it is: align "
                          "the reference, its cavity and the measured landmarks with the volume")
+    for source, noun in ((tumour, "the tumour"), (cavity, "the cavity")):
+        warn_of_axes(filter, noun, world_axes(source))
     before = Labels(fetched(tumour), tumour_labels)
     removed = Labels(fetched(cavity), cavity_labels)
     if compare is not None:

@@ -6,7 +6,7 @@ import os
 
 from .casesources import doubt_about_files
 from .files import figures_of, reason_of
-from .fitting import Fit, is_kind
+from .fitting import Fit, is_kind, rigid_of
 from .grids import sheet_left_out
 from .lineage import compared_by, differences, is_fitted, landmarks_fitted_by
 from .registering import refined_by
@@ -128,11 +128,13 @@ class Steps:
         belong to depth shafts, which lie below the cortex."""
         return "Contacts" if self.part("at_rest") else "Contacts of grids and shafts alike"
 
+    def _is_reference_moved(self):
+        moved = self.comparison
+        return moved is not None and any([*moved.ReferenceTranslation, *moved.ReferenceRotation])
+
     def _cavity_doubt(self):
         """A sentence if points are left out by a cavity whose reference was moved; else empty."""
-        moved = self.comparison
-        if self.cavity is None or moved is None or not any(
-                [*moved.ReferenceTranslation, *moved.ReferenceRotation]):
+        if self.cavity is None or not self._is_reference_moved():
             return ""
         return ("The reference was moved, and its cavity with it, but points are left out by the "
                 "cavity as its file has it: align first and save the cavity where it belongs, or "
@@ -143,7 +145,6 @@ class Steps:
 
         The rigid motion of a fit to landmarks alone counts as part of the deformation.
         """
-        from .fitting import rigid_of
         from .judging import TargetErrors, tre
         from .points import read_from
 
@@ -250,7 +251,8 @@ class Steps:
             return []
         found = [*self._doubts_about_files(), *self._doubts_about_points(),
                  *self._doubts_about_fit(), *self._doubts_about_reference(),
-                 *self._doubts_about_tissue(), self._doubt_about_landmarks()]
+                 *self._doubts_about_tissue(), self._doubt_about_landmarks(),
+                 self._doubt_about_frames()]
         return [(step, sentence) for step, sentence in found if sentence]
 
     def _doubts_about_files(self):
@@ -280,6 +282,7 @@ class Steps:
                           "a new fit would find. Choose a brain, or set surface_level")
         known = Fit(figures_of(fit))
         yield "Fit", reason_of(fit)
+        yield "Fit", self._doubt_about_motion(known)
         if known.warning or known.share < 1.0:
             yield "Fit", known.warning or f"The fold guard applied {100 * known.share:.3g} % of it"
         grids = self.part("at_rest")
@@ -287,6 +290,29 @@ class Steps:
             yield "Fit", figures_of(grids).GetPropertyValue("Warning")
         if self.traced is not None or self.electrodes is not None:
             yield "Fit", self._cavity_doubt()
+
+    def _doubt_about_motion(self, fit):
+        """A sentence if a fit has a rigid motion that moves the volume; else empty."""
+        import numpy
+
+        if rigid_of(fit.filter) is None:
+            return ""
+        bounds = numpy.reshape(self.bent.GetDataInformation().GetBounds(), (3, 2))
+        middle = bounds.mean(axis=1)
+        moved = fit.rigid[:3, :3] @ middle + fit.rigid[:3, 3] - middle
+        return (f"The fit also found a rigid motion: {numpy.linalg.norm(moved):.1f} mm at the "
+                f"middle of the volume and {fit.degrees:.1f} degrees. Errors of landmarks count "
+                "it, but it is not in the deformation, so pictures and exported files lack it. "
+                "Align the measured landmarks with the volume first, or move what is exported by "
+                "it")
+
+    def _doubt_about_frames(self):
+        """Landmarks that were measured in a reference stay where they are when that is moved."""
+        is_doubtful = self._is_reference_moved() and all(self.landmarks or (None,))
+        return "Judge", is_doubtful and (
+            "The reference was moved, the measured landmarks were not: if they were measured in "
+            "it, their errors are wrong. Move them by the matrix of the alignment, or save the "
+            "reference where it belongs and measure them there")
 
     def _doubt_about_landmarks(self):
         """Landmarks that the deformation did not use may be no nearer than without it."""

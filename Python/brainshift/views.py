@@ -257,6 +257,17 @@ def world_axes(source):
     return name if name in WORLDS else None
 
 
+def warn_of_axes(volume, noun, axes):
+    """Warns if something lies along other world axes than a volume, or the volume's are unknown."""
+    import warnings
+
+    own = world_axes(volume)
+    if axes and own != axes:
+        warnings.warn(f"The world axes of the volume are {own or 'unknown'}, those of {noun} are "
+                      f"{axes}: left and right may be exchanged between them. Check it in a "
+                      "picture", stacklevel=3)
+
+
 def _look(view, plane, convention, sides, bounds):
     """`sides`: directions (world) of the patient's right, anterior and superior."""
     towards, up = CAMERAS[convention][plane]

@@ -47,7 +47,8 @@ def figures_of_case(case):
 
 
 def run(job):
-    """Does the steps of a job. Returns its figures and what it wrote, paths from its folder."""
+    """Does the steps of a job. Returns its figures, what it wrote, paths from its folder, and why
+    the figures may be wrong."""
     import brainshift
     from brainshift.batching import EXPORTED, PAGE
     from brainshift.roles import paired
@@ -70,17 +71,18 @@ def run(job):
             print(f"left out: it lacks {lacking[step]}", flush=True)
         else:
             case.run(step)
-    return figures_of_case(case), [os.path.relpath(file, job["folder"]) for file in outputs]
+    return (figures_of_case(case), [os.path.relpath(file, job["folder"]) for file in outputs],
+            [f"{step}: {sentence}" for step, sentence in case.doubts()])
 
 
 def main(job):
     """Does a job and writes its result, whole or not at all."""
     from brainshift.batching import RESULT
 
-    result = {"key": job["key"], "problem": "", "figures": {}, "outputs": []}
+    result = {"key": job["key"], "problem": "", "figures": {}, "outputs": [], "doubts": []}
     try:
         load_plugin()
-        result["figures"], result["outputs"] = run(job)
+        result["figures"], result["outputs"], result["doubts"] = run(job)
     except Exception as error:  # whatever it is, the batch goes on and reports it
         traceback.print_exc()
         result["problem"] = str(error) or type(error).__name__

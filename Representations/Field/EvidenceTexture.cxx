@@ -64,6 +64,10 @@ bool EvidenceTexture::update(GpuTask& gpu, const SceneDeformation& deformation,
   evidence.deviationOfTextureZero = (place.latticeOfTextureZero + 0.5) / count;
   evidence.stripesFromTexture =
     values.grid.spacing / values.layout.textureFromGrid / (std::sqrt(3.0) * EvidenceStripeMm);
+  const glm::dvec3 beginsMm = place.latticeOfTextureZero * lattice.spacing;
+  const double stripes =
+    (beginsMm.x + beginsMm.y + beginsMm.z) / (std::sqrt(3.0) * EvidenceStripeMm);
+  evidence.stripesOfTextureZero = stripes - std::floor(stripes);
   return true;
 }
 

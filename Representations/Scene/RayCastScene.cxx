@@ -125,6 +125,7 @@ void setEvidenceUniforms(Program& program, const SceneEvidence& evidence)
     program.set("evidenceLimits", EvidenceLimits);
     program.set("evidenceTints", EvidenceTints);
     program.set("stripesFromTexture", glm::vec3(evidence.stripesFromTexture));
+    program.set("stripesOfTextureZero", static_cast<float>(evidence.stripesOfTextureZero));
   }
 }
 

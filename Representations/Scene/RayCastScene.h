@@ -208,6 +208,7 @@ struct SceneEvidence
   glm::dvec3 deviationFromTexture{ 1.0 }; ///< Texture coordinates of the deviations.
   glm::dvec3 deviationOfTextureZero{ 0.0 };
   glm::dvec3 stripesFromTexture{ 1.0 }; ///< Stripes for a texture unit.
+  double stripesOfTextureZero = 0.0;    ///< From the lattice, also if the texture is a part.
 };
 
 /// The fractions of a mask, as SegmentFractions.h has them.

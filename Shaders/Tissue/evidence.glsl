@@ -8,6 +8,7 @@ uniform vec3 deviationFromTextureShift; // and shift
 uniform vec3 evidenceLimits;            // mm: where the classes 1, 2 and 3 begin
 uniform mat3 evidenceTints;             // a column for each of these classes
 uniform vec3 stripesFromTexture;        // stripes for a texture unit
+uniform float stripesOfTextureZero;     // and where the texture begins
 
 const vec3 EvidenceLuminance = vec3(0.2126, 0.7152, 0.0722);
 const float TintFraction = 0.45;
@@ -28,7 +29,7 @@ int evidenceClassAt(vec3 rest)
 
 bool onStripe(vec3 rest, float width)
 {
-  return fract(dot(rest, stripesFromTexture)) < width;
+  return fract(dot(rest, stripesFromTexture) + stripesOfTextureZero) < width;
 }
 
 // A tissue's colour with the tint of its class; its lightness stays to be seen.

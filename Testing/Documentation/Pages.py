@@ -75,7 +75,8 @@ def test_properties_have_their_defaults():
 
 def test_numbers_of_the_panel_say_their_unit():
     elsewhere = {"Strokes", "Strength", "PointOfInterest",    # their widget or group says it
-                 "LandmarkPairs", "MaximumDisplacement", "MinimumJacobian"}
+                 "LandmarkPairs", "MaximumDisplacement", "MinimumJacobian",
+                 "ControlPoints", "WorldFromFile"}        # no widget shows them
     for proxy in property_reference.public_proxies():
         for element in proxy.properties:
             if (element.tag == "DoubleVectorProperty" and element.get("name") not in elsewhere
@@ -84,6 +85,17 @@ def test_numbers_of_the_panel_say_their_unit():
                              and element.get("panel_visibility") is None)
                     and element.get("si_class") != "vtkSIDataArrayProperty"):
                 assert property_reference.unit(element), (proxy.name, element.get("name"))
+
+
+def test_states_of_python_hold_what_a_user_set():
+    """ParaView leaves what panel_visibility="never" hides out of states and traces of Python."""
+    of_a_moment = {"Live", "KeepPicture", "CountSamples", "SliceLegend", "VolumeLegend"}
+    of_the_reader = {"Format", "FileName"}  # a list of files is in states, however hidden
+    for proxy in property_reference.proxies().values():
+        lost = {element.get("name") for element in proxy.properties
+                if element.get("panel_visibility") == "never" and element.tag != "InputProperty"
+                and not element.get("information_only")} - of_a_moment - of_the_reader
+        assert not lost, (proxy.name, lost)
 
 
 def test_python_reference_has_the_public_functions():

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plays a test in ParaView's window and judges it:
 
-    python3 play_window.py NAME [--seconds N] [--judge PROGRAM SCRIPT] -- WINDOW…
+    python3 play_window.py NAME [--seconds N] [--status N] [--judge PROGRAM SCRIPT] -- WINDOW…
 
 WINDOW is the command that plays, and BRAINSHIFT_TEST_TEMP the test's own folder, which is emptied
-first. The test fails if the window ends with an error, if NAME.json says that a step did not hold
-or is missing, or if the judge, a script that looks at what the window left, fails. If the window
-wrote NAME.log, its last lines are shown then.
+first. The test fails if the window ends with another status than 0, or that one, if NAME.json says
+that a step did not hold or is missing, or if the judge, a script that looks at what the window
+left, fails. If the window wrote NAME.log, its last lines are shown then.
 """
 
 import argparse
@@ -25,17 +25,18 @@ def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("name")
     parser.add_argument("--seconds", type=int, default=MOST_SECONDS)
+    parser.add_argument("--status", type=int, default=0)
     parser.add_argument("--judge", nargs=2, metavar=("PROGRAM", "SCRIPT"))
     parser.add_argument("window", nargs="+")
     return parser.parse_args()
 
 
-def play(window, seconds, log):
+def play(wanted, log):
     try:
-        status = subprocess.run(window, check=False, timeout=seconds).returncode
+        status = subprocess.run(wanted.window, check=False, timeout=wanted.seconds).returncode
     except subprocess.TimeoutExpired:
-        sys.exit(f"The window did not end within {seconds} s{end_of(log)}")
-    if status != 0:
+        sys.exit(f"The window did not end within {wanted.seconds} s{end_of(log)}")
+    if status != wanted.status:
         sys.exit(f"The window ended with status {status}{end_of(log)}")
 
 
@@ -64,7 +65,7 @@ def main():
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     log = folder / f"{wanted.name}.log"
-    play(wanted.window, wanted.seconds, log)
+    play(wanted, log)
     if wanted.judge:
         sys.exit(subprocess.run(wanted.judge, check=False).returncode)
     assert_all_held(folder / f"{wanted.name}.json", log)

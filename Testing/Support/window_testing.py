@@ -138,6 +138,16 @@ def settle(label):
     assert undo_labels()[0] == label, undo_labels()
 
 
+def drawn_by_tool(view):
+    """The representation of the tool in hand."""
+    hidden = view.SMProxy.GetProperty("HiddenRepresentations")
+    for i in range(hidden.GetNumberOfProxies()):
+        tool = hidden.GetProxy(i).GetClientSideObject().GetRepresentation()
+        if tool.GetClassName() == "vtkLatticeRepresentation":
+            return tool
+    raise AssertionError("no tool is in hand")
+
+
 def shown(view, what):
     """How many ControlPoints, Faint or Highlights the tool in a view shows."""
     hidden = view.SMProxy.GetProperty("HiddenRepresentations")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a state file, in XML or Python, brings back the same strokes, the same fit and the
-# same picture to the bit.
+# Proves that a state file, in XML or Python, brings back the same strokes, the same fit, what no
+# widget shows, and the same picture to the bit.
 import numpy
 from brainshift_testing import load_plugin, picture, run_tests, scratch, show_volume, view_along
 from paraview import simple, smstate
@@ -111,6 +111,42 @@ def test_a_fit_comes_back():
             exec(compile(script, name, "exec"), {"__name__": "state"})
         for found, expected in zip(fitted_scene(), before):
             assert len(expected) and numpy.array_equal(found, expected), (ending, found, expected)
+
+
+def without_widget():
+    """Values of properties that no widget shows, by registered name and property."""
+    return {
+        ("refined", "ControlPoints"): [0.25 * i for i in range(4 * 4 * 5 * 3)],
+        ("fit", "RestNames"): ["b", "a, \"c\""], ("fit", "MeasuredNames"): ["a", "b"],
+        ("fit", "LandmarksOff"): ["b"], ("fit", "PointAxes"): "RAS",
+        ("grids", "ContactNames"): ["G1", "G2"], ("grids", "ContactGroups"): ["G", "G"],
+        ("grids", "PointAxes"): "LPS",
+        ("read", "WorldFromFile"): [0, -1, 0, 7.5, 1, 0, 0, -3, 0, 0, 1, 0.25, 0, 0, 0, 1],
+        ("raw", "WorldFromFile"): [1, 0, 0, 4, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}
+
+
+def test_a_python_state_keeps_what_has_no_widget():
+    simple.ResetSession()
+    load_plugin()
+    for name in ("volume.nrrd", "volume.mha"):
+        simple.SaveData(scratch(name), simple.Wavelet(), World="RAS")
+    points = simple.PolyPointSource(registrationName="points", Points=[0, 0, 1, 2, 0, 1])
+    wavelet = simple.Wavelet(registrationName="wavelet")
+    simple.RefinedLattice(registrationName="refined", Input=wavelet, LatticeDimensions=[4, 4, 5])
+    simple.FitDeformation(registrationName="fit", Input=wavelet, RestLandmarks=points,
+                          MeasuredLandmarks=points)
+    simple.ElectrodeGrids(registrationName="grids", Input=points, Cortex=wavelet)
+    simple.NRRDVolumeReader(registrationName="read", FileName=scratch("volume.nrrd"))
+    simple.RenameSource("raw", simple.OpenDataFile(scratch("volume.mha")))
+    for (source, name), value in without_widget().items():
+        setattr(simple.FindSource(source), name, value)
+    script = smstate.get_state()
+    simple.ResetSession()
+    load_plugin()
+    exec(compile(script, "state", "exec"), {"__name__": "state"})
+    for (source, name), value in without_widget().items():
+        found = simple.FindSource(source).GetPropertyValue(name)
+        assert (found if isinstance(value, str) else list(found)) == value, (source, name, found)
 
 
 run_tests(globals())

@@ -51,6 +51,7 @@ def test_one_failure_stops_no_other():
     assert done["second"].state == "failed" and "pointer.csv" in done["second"].problem, done
     rows = table()
     assert [row["state"] for row in rows] == ["done", "failed"]
+    assert rows[0]["doubts"].split(" | ") == list(done["first"].doubts) != [], rows[0]
     assert 0.0 < float(rows[0]["tumour left (ml)"]) < float(rows[0]["tumour before (ml)"])
     assert os.path.exists(os.path.join(done["first"].folder, "files", "sub-1_T1w_bent.nii.gz"))
     with open(os.path.join(FOLDER, "results", "index.html"), encoding="utf-8") as file:

@@ -47,13 +47,8 @@ def tissue(at):
 
 def outlined(seen=None):
     """The box round what the tool draws (mm); None: it draws nothing."""
-    hidden = (seen or view()).SMProxy.GetProperty("HiddenRepresentations")
-    for i in range(hidden.GetNumberOfProxies()):
-        tool = hidden.GetProxy(i).GetClientSideObject().GetRepresentation()
-        if tool.GetClassName() == "vtkLatticeRepresentation":
-            box = tool.GetBounds()
-            return None if box is None else numpy.array(box)
-    raise AssertionError("no tool is in hand")
+    box = window.drawn_by_tool(seen or view()).GetBounds()
+    return None if box is None else numpy.array(box)
 
 
 def rest():
