@@ -11,6 +11,7 @@
 #include <vtkImageMapper.h>
 #include <vtkPVRenderView.h>
 #include <vtkPointData.h>
+#include <vtkProperty2D.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSMProxy.h>
@@ -102,6 +103,7 @@ void ServerPicture::draw()
   mapper->SetColorLevel(127.5);
   vtkNew<vtkActor2D> actor;
   actor->SetMapper(mapper);
+  actor->GetProperty()->SetDisplayLocationToBackground(); // else it hides what is drawn over it
   vtkNew<vtkRenderer> last; // in the place of the view's, which would ask the server
   last->AddViewProp(actor);
   vtkRenderWindow* window = this->Renderer->GetRenderWindow();

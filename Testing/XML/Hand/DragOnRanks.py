@@ -73,12 +73,20 @@ def drag(far):
     drag_one(far, bent, view, display, "a second block")
 
 
+def outlined(pixels):
+    """How many pixels have the colour of outlines, and where the mark under the hand is."""
+    red, green, blue = numpy.moveaxis(pixels, -1, 0)
+    yellow = (red > 180) & (green > 150) & (blue < 110)
+    orange = (red > 220) & (abs(green - 118) < 25) & (blue < 60)
+    return yellow.sum(), numpy.argwhere(orange).mean(axis=0)
+
+
 class Step:
-    """What happens while the hand moves: at each picture of the window the round trips, the bytes
-    that came and when the tool changed what it draws; and all bytes."""
+    """What happens while the hand moves: at each picture of the window the round trips and the
+    bytes that came; what the first one shows; and all bytes."""
 
     def __init__(self, far, view):
-        self.far, self.view = far, view
+        self.far, self.view, self.first = far, view, None
 
     def __enter__(self):
         self.pictures, self.before = [], self.far.counts()
@@ -89,8 +97,8 @@ class Step:
     def note(self, *_):
         now = self.far.counts()
         came = now["toClient"] - self.before["toClient"]
-        self.pictures.append((now["roundTrips"] - self.before["roundTrips"], came,
-                              window.drawn_by_tool(self.view).GetMTime()))
+        self.pictures.append((now["roundTrips"] - self.before["roundTrips"], came))
+        self.first = on_screen(self.view) if self.first is None else self.first
 
     def __exit__(self, *_):
         self.window.RemoveObserver(self.observer)
@@ -105,19 +113,22 @@ def drag_one(far, bent, view, display, kind):
     hand.drag_to([start[0] + 2, start[1] + 2])
     hand.wait(50)
     drawn = brainshift.counters(display)["latticeUploads"]
-    pictures, outline = [on_screen(view)], window.drawn_by_tool(view).GetMTime()
+    pictures = [on_screen(view)]
     for step in (8, 14, 20, 26):
         with Step(far, view) as moved:
             hand.drag_to([start[0] + step, start[1] + step])
             hand.wait(50)
         print(kind, "pictures after round trips and bytes", moved.pictures, moved.bytes, flush=True)
-        (_, came, at_once), (trips, much, _) = moved.pictures[:2]
+        (_, came), (trips, much) = moved.pictures[:2]
         assert came < much / 50, (kind, "before the server answers", moved.pictures)
-        assert at_once > outline, (kind, "the outline follows", moved.pictures)
         assert trips <= 2, (kind, "tissue follows", moved.pictures)
         assert moved.bytes < on_screen(view).size / 2, (kind, "pictures are packed", moved.bytes)
-        outline = at_once
         pictures.append(on_screen(view))
+        before, at_once, after = map(outlined, (pictures[-2], moved.first, pictures[-1]))
+        print("outlines", before, at_once, after, flush=True)
+        assert at_once[0] > 0.7 * before[0] > 100, (kind, "the outline is drawn", before, at_once)
+        assert numpy.abs(at_once[1] - after[1]).max() < 1.5 < numpy.abs(
+            before[1] - after[1]).max(), (kind, "the mark follows", before, at_once, after)
     assert brainshift.counters(display)["latticeUploads"] >= drawn + 4, kind
     moved = [numpy.abs(one - other).max() for one, other in zip(pictures, pictures[1:])]
     assert min(moved) > 20, (kind, "the picture follows each step", moved)
