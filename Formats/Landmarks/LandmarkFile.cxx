@@ -115,7 +115,7 @@ namespace
 // Positions of a head in metres are as near to each other as no landmarks in mm are.
 void noteSmall(LandmarkList& list)
 {
-  constexpr std::size_t Few = 4;
+  constexpr std::size_t Few = 3; // the fiducials of a head
   constexpr double SmallMm = 1.0;
   glm::dvec3 low(HUGE_VAL);
   glm::dvec3 high(-HUGE_VAL);

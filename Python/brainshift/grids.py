@@ -3,6 +3,7 @@
 
 import collections
 import csv
+import io
 import json
 import os
 
@@ -10,7 +11,7 @@ from .files import _write, reason_of
 from .fitting import _cortex, _names, _opening, _point_axes, _points, fit
 from .images import source_of
 from .points import Points, read_points
-from .views import world_axes
+from .views import warn_of_axes, world_axes
 
 ElectrodeGrid = collections.namedtuple(
     "ElectrodeGrid", "name kind rows columns pitch by_labels labels missing")
@@ -239,8 +240,13 @@ def _bids_shapes(name):
     """What the columns group, type and dimension of a BIDS table say: groups by label, hints."""
     if not str(name).endswith(".tsv"):
         return {}, []
-    with open(name, encoding="utf-8", errors="replace", newline="") as file:
-        rows = list(csv.DictReader(file, delimiter="\t"))
+    with open(name, "rb") as file:
+        data = file.read()
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")  # as the reader of the positions
+    rows = list(csv.DictReader(io.StringIO(text, newline=""), delimiter="\t"))
     groups, hints = {}, {}
     for row in rows:
         row = {str(key).strip().lower(): (value or "").strip() for key, value in row.items()
@@ -314,10 +320,12 @@ def _mesh(cortex):
         "source of a surface"), registrationName="Cortex")
 
 
-def _regions(atlas, rest):
-    """The label of an image at each position, a number as text; n/a outside of the image."""
+def _regions(atlas, rest, axes):
+    """The label of an image at each position, a number as text; n/a outside of the image. Warns if
+    the image does not lie along the axes of the positions."""
     from paraview import servermanager
 
+    warn_of_axes(atlas, "the contacts", axes, of="the labels")
     image = servermanager.Fetch(atlas)
     array = image.GetPointData().GetScalars() or image.GetPointData().GetArray(0)
     if array is None:
@@ -398,7 +406,7 @@ def electrodes(contacts, cortex, deformation=None, threshold=None, label=None, a
         is_read = hasattr(contacts, "labels")  # so they are RAS
         found = Electrodes(source, "RAS" if is_read else world_axes(surface) or "")
         if labels is not None:
-            found.label = _regions(labels, found.rest)
+            found.label = _regions(labels, found.rest, found._axes)
         if deformation is not None:
             found.fit = _fitted(found, deformation, surface, opening, (threshold, label, array),
                                 is_read)

@@ -257,15 +257,15 @@ def world_axes(source):
     return name if name in WORLDS else None
 
 
-def warn_of_axes(volume, noun, axes):
+def warn_of_axes(volume, noun, axes, of="the volume"):
     """Warns if something lies along other world axes than a volume, or the volume's are unknown."""
     import warnings
 
     own = world_axes(volume)
     if axes and own != axes:
-        warnings.warn(f"The world axes of the volume are {own or 'unknown'}, those of {noun} are "
-                      f"{axes}: left and right may be exchanged between them. Check it in a "
-                      "picture", stacklevel=3)
+        warnings.warn(f"The world axes of {of} are {own or 'unknown'}, those of {noun} are {axes}: "
+                      "left and right may be exchanged between them. Check it in a picture",
+                      stacklevel=3)
 
 
 def _look(view, plane, convention, sides, bounds):

@@ -488,7 +488,7 @@ def test_a_coordsystem_above_its_table_counts_in_a_data_set():
 
 
 def test_a_head_of_less_than_a_millimetre_is_doubted():
-    for count, words in ((4, "has 4 points within"), (3, "")):
+    for count, words in ((3, "has 3 points within"), (2, "")):
         rows = [f"e{i},{0.01 * i},{0.02 * i},0.1" for i in range(count)]
         with messages() as said:
             brainshift.read_points(written("small.csv", "\n".join(["name,x,y,z", *rows])))

@@ -146,13 +146,15 @@ def test_a_contact_that_floats_is_named():
 def test_bids_columns_give_the_shape():
     _, measured, _ = grid()
     name = scratch("sub-01_electrodes.tsv")
-    with open(name, "w") as file:
-        file.write("name\tx\ty\tz\tsize\tgroup\ttype\tdimension\n")
-        for i, at in enumerate(measured[:15]):
-            file.write(f"A{i + 1}\t{at[0]}\t{at[1]}\t{at[2]}\t4\tfrontal\tgrid\t[4x5]\n")
-    found = brainshift.electrodes(name, brain(), threshold=50)
-    assert found.grids[0].name == "frontal" and found.grids[0].rows == 4, found.grids
-    assert found.grids[0].missing == [f"A{i}" for i in range(16, 21)], found.grids
+    # In UTF-8, with its mark, and in Latin-1.
+    for encoding, letter in (("utf-8", "A"), ("utf-8-sig", "A"), ("latin-1", "\u00c4")):
+        with open(name, "w", encoding=encoding) as file:
+            file.write("name\tx\ty\tz\tsize\tgroup\ttype\tdimension\n")
+            for i, (x, y, z) in enumerate(measured[:15]):
+                file.write(f"{letter}{i + 1}\t{x}\t{y}\t{z}\t4\tfrontal\tgrid\t[4x5]\n")
+        found = brainshift.electrodes(name, brain(), threshold=50)
+        assert found.grids[0].name == "frontal" and found.grids[0].rows == 4, found.grids
+        assert found.grids[0].missing == [f"{letter}{i}" for i in range(16, 21)], found.grids
 
 
 def test_a_surface_is_as_good_as_a_mask():
