@@ -13,7 +13,7 @@ import brainshift  # noqa: E402 after the plugin
 from brainshift import reporting, scenes  # noqa: E402
 from brainshift.worker import figures_of_case  # noqa: E402
 from paraview import simple  # noqa: E402
-from patient_testing import MIDDLE, RADIUS, TOP, make_patient, sunk  # noqa: E402
+from patient_testing import MIDDLE, RADIUS, TOP, make_patient, sunk, table  # noqa: E402
 
 FOLDER = scratch("doubts")
 STROKE_SWITCH = 13  # the last of its 14 numbers
@@ -40,6 +40,13 @@ def refined(case):
     case.refine(callback=lambda _: False)
     assert case.fit_source() is None
     return case
+
+
+def write_pairs(name, rest, measured):
+    """Writes a table of landmarks with both positions."""
+    columns = [f"{axis}_{when}" for when in ("rest", "measured") for axis in "xyz"]
+    table(path(name), ["name", *columns],
+          [[f"N{i}", *pair] for i, pair in enumerate(numpy.column_stack((rest, measured)))])
 
 
 def grid(name, prefix, count=(4, 5), extra=None):
@@ -244,15 +251,11 @@ def test_landmarks_that_are_no_nearer_are_a_doubt():
     """Neighbours that moved in opposite directions: each predicts the other wrongly. And a stroke
     away from where landmarks were measured is worse than none."""
     random = numpy.random.default_rng(3)
-    columns = [f"{axis}_{when}" for when in ("rest", "measured") for axis in "xyz"]
     rest = numpy.repeat(MIDDLE + random.uniform(-25, 25, (6, 3)), 2, axis=0)
     rest[1::2, 0] += 4.0
     for name, shifts in (("apart.csv", [(0.0, 0.0, 3.0), (0.0, 0.0, -3.0)] * 6),
                          ("together.csv", [(0.0, 0.0, -3.0)] * 12)):
-        with open(path(name), "w", encoding="utf-8") as file:
-            file.write(",".join(["name", *columns]) + "\n")
-            for i, pair in enumerate(numpy.column_stack((rest, rest + shifts))):
-                file.write(",".join([f"N{i}", *map(str, pair)]) + "\n")
+        write_pairs(name, rest, rest + shifts)
     case = begun(landmarks="apart.csv")
     assert case.doubts() == []
     case.run("Fit")
@@ -273,16 +276,16 @@ def test_landmarks_that_are_no_nearer_are_a_doubt():
 
 def test_a_rigid_motion_is_not_in_the_pictures():
     """A fit to landmarks alone keeps it apart, which the doubts and the report say."""
-    case = begun()
     rest = numpy.random.default_rng(4).uniform(40, 120, (12, 3))
-    case.landmarks = rest, rest + (0.0, 5.0, 3.0)
+    write_pairs("moved.csv", rest, rest + (0.0, 5.0, 3.0))
+    write_pairs("sunk.csv", rest, sunk(rest))
+    case = begun(landmarks="moved.csv")
     assert_says(case.run("Fit").found, "a rigid motion: 5.8 mm at the middle", "0.0 degrees",
                 "exported files lack it")
     assert "Fit" in case.doubtful() and case.landmark_errors().mean < 0.1
     rows = {row[0]: row[-1] for row in reporting._distances(case)}
     assert_says(rows["Landmarks, in the mean"], "rigid motion", "lack")
-    case.landmarks = rest, sunk(rest)
-    case.traces = path("pointer.csv")
+    case = begun(landmarks="sunk.csv", traces="pointer.csv")
     assert "rigid motion" not in case.run("Fit").found
 
 
