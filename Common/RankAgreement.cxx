@@ -20,18 +20,26 @@ bool isTrueOnAny(vtkMultiProcessController* ranks, bool here)
   return any != 0;
 }
 
+int firstRankWhere(vtkMultiProcessController* ranks, bool here)
+{
+  const int own = here ? ranks->GetLocalProcessId() : ranks->GetNumberOfProcesses();
+  int first = own;
+  ranks->AllReduce(&own, &first, 1, vtkCommunicator::MIN_OP);
+  return first;
+}
+
 std::string problemOnAny(vtkMultiProcessController* ranks, const std::string& here)
 {
-  const int count = ranks->GetNumberOfProcesses();
-  const int own = here.empty() ? count : ranks->GetLocalProcessId();
-  int first = count;
-  ranks->AllReduce(&own, &first, 1, vtkCommunicator::MIN_OP);
-  if (first == count)
-  {
-    return {};
-  }
-  return "MPI rank " + std::to_string(first) + " of " + std::to_string(count) + ": " +
-    textOf(ranks, here, first);
+  const int first = firstRankWhere(ranks, !here.empty());
+  return first == ranks->GetNumberOfProcesses()
+    ? std::string()
+    : saidByRank(ranks, first, textOf(ranks, here, first));
+}
+
+std::string saidByRank(vtkMultiProcessController* ranks, int rank, const std::string& sentence)
+{
+  return "MPI rank " + std::to_string(rank) + " of " +
+    std::to_string(ranks->GetNumberOfProcesses()) + ": " + sentence;
 }
 
 std::string textOf(vtkMultiProcessController* ranks, const std::string& here, int rank)

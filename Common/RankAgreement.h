@@ -25,6 +25,9 @@ VTKBRAINSHIFTCOMMON_EXPORT vtkMultiProcessController* severalRanks();
 /** Whether something is true on one rank or more. */
 VTKBRAINSHIFTCOMMON_EXPORT bool isTrueOnAny(vtkMultiProcessController* ranks, bool here);
 
+/** The first rank on which something is true, on all ranks; the number of ranks if on none. */
+VTKBRAINSHIFTCOMMON_EXPORT int firstRankWhere(vtkMultiProcessController* ranks, bool here);
+
 /**
  * Why something fails, on all ranks: the sentence of the first rank that has one, with the rank
  * before it. Empty if none has one.
@@ -50,6 +53,10 @@ void runOnAllRanks(const std::string& subject, const Step& step)
   }
   step();
 }
+
+/** A sentence of a rank, with the rank before it. */
+VTKBRAINSHIFTCOMMON_EXPORT std::string saidByRank(
+  vtkMultiProcessController* ranks, int rank, const std::string& sentence);
 
 /** A text of one rank, on all ranks. `here`: any text on the other ranks. */
 VTKBRAINSHIFTCOMMON_EXPORT std::string textOf(

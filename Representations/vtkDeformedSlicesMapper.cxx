@@ -148,11 +148,8 @@ void vtkDeformedSlicesMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
     bool drawn = false;
     const std::string thrown = thrownBy([&] { drawn = this->Draw(renderer, volume, problem); });
     problem = thrown.empty() ? problem : "Deformed Slices " + thrown;
-    if (!drawn && this->Internal->Reported != problem)
-    {
-      vtkErrorMacro(<< problem << ". The slices are not drawn.");
-    }
-    this->Internal->Reported = drawn ? std::string() : problem;
+    reportOnce(
+      this, drawn ? std::string() : problem, "The slices are not drawn", this->Internal->Reported);
   });
 }
 
@@ -231,11 +228,7 @@ void vtkDeformedSlicesMapper::Tell(const GpuTask& gpu)
 {
   for (const std::string& remark : gpu.remarks)
   {
-    if (!remark.empty() && this->Internal->Told.insert(remark).second &&
-      isNewRemark(this->GetDataSetInput(), remark))
-    {
-      warn(this, remark);
-    }
+    tellOnce(this, remark, this->Internal->Told);
   }
   for (const std::string& warning : gpu.warnings)
   {

@@ -192,13 +192,12 @@ void vtkDeformedVolumeMapper::DrawAnyhow(vtkRenderer* renderer, vtkVolume* volum
   {
     problem = "Deformed Volume " + thrown;
   }
-  if (drawn)
+  reportOnce(this, drawn ? std::string() : problem,
+    "VTK's software mapper draws the volume undeformed", this->Internal->Reported);
+  if (!drawn)
   {
-    this->Internal->Reported.clear(); // the same problem is new when it comes again
-  }
-  else
-  {
-    this->DrawUndeformed(renderer, volume, problem);
+    drawInSoftware(this, this->Internal->Fallback);
+    this->Internal->Fallback->Render(renderer, volume);
   }
 }
 
@@ -418,11 +417,7 @@ void vtkDeformedVolumeMapper::ComparePlainly(VolumeRequest& request)
 
 void vtkDeformedVolumeMapper::TellOnce(const std::string& sentence)
 {
-  if (!sentence.empty() && this->Internal->Told.insert(sentence).second &&
-    isNewRemark(this->GetDataSetInput(), sentence))
-  {
-    warn(this, sentence);
-  }
+  tellOnce(this, sentence, this->Internal->Told);
 }
 
 bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double position[3])
@@ -479,19 +474,6 @@ const FirstHits* vtkDeformedVolumeMapper::GetHits(vtkWindow* window)
 {
   VolumeDevice* device = this->Internal->Devices.find(window);
   return device ? device->images().drawnHits() : nullptr;
-}
-
-void vtkDeformedVolumeMapper::DrawUndeformed(
-  vtkRenderer* renderer, vtkVolume* volume, const std::string& problem)
-{
-  State& state = *this->Internal;
-  if (state.Reported != problem)
-  {
-    vtkErrorMacro(<< problem << ". VTK's software mapper draws the volume undeformed.");
-    state.Reported = problem;
-  }
-  drawInSoftware(this, state.Fallback);
-  state.Fallback->Render(renderer, volume);
 }
 
 void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)

@@ -285,7 +285,6 @@ private:
   // Draws deformed. False, with one sentence in `problem`, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
   void DrawAnyhow(vtkRenderer* renderer, vtkVolume* volume);
-  void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
   // The content of the picture by the settings.
   brainshift::TissueRequest TissueOf(

@@ -5,6 +5,7 @@
 #include "Filters/Attached/BendNumbers.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
+#include "Representations/Scene/Remarks.h"
 #include "Representations/Window/EvidenceLegend.h"
 #include "Representations/Window/RankParts.h"
 #include "Representations/Window/ReferencePart.h"
@@ -132,9 +133,13 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
         ShareOut(group, input, output);
       }
     }
-    else if (request == vtkPVView::REQUEST_RENDER() && isFirst && AreBehind(group))
+    else if (request == vtkPVView::REQUEST_RENDER() && isFirst)
     {
-      Overtake(group, input);
+      brainshift::tellOfOtherRanks(this);
+      if (AreBehind(group))
+      {
+        Overtake(group, input);
+      }
     }
     failed.end();
     const int result = this->Superclass::ProcessViewRequest(request, input, output);

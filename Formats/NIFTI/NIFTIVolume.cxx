@@ -302,6 +302,7 @@ NIFTIVolume::NIFTIVolume()
 void NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   requireNIFTIFile(fileName);
+  this->IsPacked = beginsLikeGzip(fileName);
   this->Error.clear();
   this->Voxels->SetFileName(fileName.c_str());
   this->Voxels->Modified(); // the file may have changed under its name

@@ -26,7 +26,7 @@ public:
   std::string noun() const override { return "NIfTI file"; }
   void readHeader(const std::string& fileName, VolumeHeader& header) override;
   Loads loads() const override { return Loads::Part; } ///< of a series at all times: it is kept
-  bool readsNothingElse() const override { return this->Volumes == 1; }
+  bool readsNothingElse() const override { return this->Volumes == 1 && !this->IsPacked; }
   double storedBytes(const VolumeHeader& header) const override;
   void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
@@ -49,6 +49,7 @@ private:
   vtkNew<vtkCallbackCommand> KeepError;
   vtkNew<vtkNIFTIImageReader> Voxels; // all volumes of a time series as components
   int Volumes = 1;
+  bool IsPacked = false; // with gzip
 };
 }
 

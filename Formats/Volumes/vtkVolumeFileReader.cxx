@@ -4,6 +4,7 @@
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
 #include "Common/ImageParts.h"
+#include "Common/RankAgreement.h"
 #include "Common/SharedArray.h"
 #include "Common/WorldAxes.h"
 #include "Formats/Volumes/FinerLevels.h"
@@ -15,6 +16,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMatrix3x3.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -421,7 +423,7 @@ int vtkVolumeFileReader::readHeader(vtkInformation* output)
     this->reading([this] { this->Stored->readHeader(this->FileName ? this->FileName : ""); });
   });
   this->Last.isOfHeader = false;
-  this->SaidDamages.clear();
+  this->Warned.clear();
   this->IsStopped = !problem.empty() && this->GetAbortExecute();
   if (this->IsStopped)
   {
@@ -470,6 +472,34 @@ int vtkVolumeFileReader::RequestData(
   return 1;
 }
 
+// Of a large file whose parts cannot be found, several MPI ranks read or unpack all, and more ranks
+// make it no faster. The first one says so for all, for each of them asks for a part.
+void vtkVolumeFileReader::warnOfRanks(vtkInformation* information)
+{
+  constexpr double FewBytes = 256.0 * 1048576.0; // unpacked in a second or two
+  const brainshift::Extent whole = brainshift::wholeExtentOf(information);
+  const brainshift::VolumeHeader& header = this->Stored->header();
+  const double bytes = brainshift::pointsIn(whole) * header.components *
+    static_cast<double>(header.times.size()) * vtkDataArray::GetDataTypeSize(header.storedType);
+  vtkMultiProcessController* ranks = brainshift::severalRanks();
+  if (!ranks || !brainshift::isFirstRank() || this->File->readsNothingElse() || bytes <= FewBytes ||
+    brainshift::updateExtentOf(information) == whole)
+  {
+    return;
+  }
+  const std::string sentence = std::string(this->FileName) + ": each of " +
+    std::to_string(ranks->GetNumberOfProcesses()) + " MPI ranks " +
+    (this->File->loads() == brainshift::Loads::All
+        ? "reads the whole file and keeps its part"
+        : "unpacks the file from its beginning to the end of its part") +
+    ". Save it as an uncompressed NIfTI file or as an OME-Zarr image: each rank then reads its "
+    "part alone";
+  if (this->Warned.insert(sentence).second)
+  {
+    brainshift::warn(this, sentence);
+  }
+}
+
 int vtkVolumeFileReader::readVolume(vtkInformation* information)
 {
   // ParaView asks for data even after RequestInformation failed; that has been reported.
@@ -493,6 +523,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
     isWanted = isWanted && brainshift::WriterAtWork::goesOn();
     return isWanted && !this->GetAbortExecute();
   };
+  this->warnOfRanks(information);
   this->reading([&] {
     this->Stored->read(
       volume, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()), progress, shown);
@@ -501,7 +532,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   {
     return isWanted ? 0 : 1; // stopped; without points, it is read when it is asked for again
   }
-  if (!this->Stored->damage().empty() && this->SaidDamages.insert(this->Stored->damage()).second)
+  if (!this->Stored->damage().empty() && this->Warned.insert(this->Stored->damage()).second)
   {
     brainshift::warn(this, this->Stored->damage());
   }

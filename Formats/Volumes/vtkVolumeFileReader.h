@@ -176,6 +176,8 @@ private:
   void reading(const std::function<void()>& read);
   // Fills the output with the volume of the time that is asked for.
   int readVolume(vtkInformation* output);
+  // Says on several MPI ranks that each of them reads more than its part.
+  void warnOfRanks(vtkInformation* output);
   // Tells the pipeline what was last read to its end.
   void announceLast(vtkInformation* output);
   // Keeps what is read; keepLast shows it again, after the user stopped the next one.
@@ -205,8 +207,8 @@ private:
   int Channel = -1;
   Shown Last;
   bool IsReading = false;
-  std::set<std::string> SaidDamages; // warnings on voxels, each once for a header that is read
-  bool IsStopped = false;            // the header that was read last is not what is shown
+  std::set<std::string> Warned; // warnings on voxels, each once for a header that is read
+  bool IsStopped = false;       // the header that was read last is not what is shown
   const brainshift::VolumeFormat* Taken = nullptr; // of File
   brainshift::VolumeFile* File = nullptr;          // held by Stored; null: no format yet
   std::unique_ptr<brainshift::PlacedVolume> Stored;

@@ -250,7 +250,7 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
     const bool isVolume = this->Probe.tissueAt(view, pixel.x, pixel.y).has_value();
     this->request(isVolume
         ? tr("The volume at that position is no reference, or its display has a Translation, an "
-             "Orientation or a Scale. ")
+             "Orientation or a Scale, or a Compare Volumes moves it: then click it there. ")
         : tr("No volume is at that position. "));
     return;
   }
@@ -293,10 +293,30 @@ bool LandmarkPicker::eventFilter(QObject* watched, QEvent* event)
 
 namespace
 {
-bool isComparison(pqDataRepresentation* display)
+bool isComparison(const pqPipelineSource* source)
 {
-  const pqOutputPort* input = display->getOutputPortFromInput();
-  return input && std::strcmp(input->getSource()->getProxy()->GetXMLName(), "CompareVolumes") == 0;
+  return std::strcmp(source->getProxy()->GetXMLName(), "CompareVolumes") == 0;
+}
+
+bool isZero(vtkSMProxy* comparison, const char* property)
+{
+  glm::dvec3 numbers(0.0);
+  vtkSMPropertyHelper(comparison, property).Get(&numbers[0], 3);
+  return numbers == glm::dvec3(0.0);
+}
+
+// Whether a display shows a reference where its file has it, while a comparison with a volume moves
+// it, as Align does: a landmark that is measured there lacks that motion.
+bool showsBeforeAlign(vtkSMProxy* atRest, pqDataRepresentation* display)
+{
+  vtkSMProxy* shown = display->getInput()->getProxy();
+  const QList<pqPipelineSource*> sources = serverManagerModel()->findItems<pqPipelineSource*>();
+  return std::any_of(sources.begin(), sources.end(), [&](pqPipelineSource* source) {
+    vtkSMProxy* proxy = source->getProxy();
+    return isComparison(source) && vtkSMPropertyHelper(proxy, "Reference").GetAsProxy() == shown &&
+      isBentFrom(source, atRest) &&
+      !(isZero(proxy, "ReferenceRotation") && isZero(proxy, "ReferenceTranslation"));
+  });
 }
 
 QList<pqDataRepresentation*> shownVolumes()
@@ -344,7 +364,7 @@ bool showsOther(pqPipelineSource* deformation, pqDataRepresentation* display)
   vtkSMProxy* atRest = vtkSMPropertyHelper(deformation->getProxy(), "Input").GetAsProxy();
   return display->isVisible() && (showsSlices(display) || showsVolume(display)) &&
     !isMoved(display) && vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy() != atRest &&
-    !isBentFrom(display->getInput(), atRest);
+    !isBentFrom(display->getInput(), atRest) && !showsBeforeAlign(atRest, display);
 }
 
 bool isReferenceShown(pqPipelineSource* deformation)
@@ -352,7 +372,7 @@ bool isReferenceShown(pqPipelineSource* deformation)
   const QList<pqDataRepresentation*> shown = shownVolumes();
   return std::any_of(shown.begin(), shown.end(), [deformation](pqDataRepresentation* display) {
     const bool bent = display == bentDisplay(deformation, display->getView());
-    return bent ? isComparison(display) : showsOther(deformation, display);
+    return bent ? isComparison(display->getInput()) : showsOther(deformation, display);
   });
 }
 }

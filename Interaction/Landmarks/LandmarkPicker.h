@@ -90,7 +90,8 @@ private:
 void bringCrosshairTo(pqPipelineSource* deformation, const glm::dvec3& drawn);
 
 /// Whether a display shows neither the volume of a Free-Form Deformation at rest nor one of its
-/// deformations, and is not moved: a landmark of it may be measured there.
+/// deformations, and is not moved, nor moved by a comparison with it: a landmark of it may be
+/// measured there.
 bool showsOther(pqPipelineSource* deformation, pqDataRepresentation* display);
 
 /// Whether a view shows a reference: a comparison of the Free-Form Deformation, or another volume.

@@ -31,7 +31,7 @@ _DARK = 8  # brightness (0 to 255) of the ground, at most
 def _hidden_view():
     """A view that no window shows. The render windows of ParaView's own window draw only where they
     are seen: a picture of a new one would be what its memory held."""
-    from paraview import servermanager
+    from paraview import servermanager, simple
     from paraview.modules.vtkRemotingViews import vtkPVView
 
     was_in_window = vtkPVView.GetUseGenericOpenGLRenderWindow()
@@ -44,7 +44,9 @@ def _hidden_view():
     window = proxy.GetRenderWindow()
     window.SetOffScreenRendering(True)
     window.SetShowWindow(False)
-    return servermanager._getPyProxy(proxy)
+    view = servermanager._getPyProxy(proxy)
+    view.ViewTime = simple.GetTimeKeeper().Time  # which follows registered views alone
+    return view
 
 
 @contextlib.contextmanager

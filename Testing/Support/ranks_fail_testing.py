@@ -3,6 +3,7 @@
 of pvbatch, this module writes the answers to some questions into the file that it is given."""
 
 import contextlib
+import gzip
 import os
 import sys
 
@@ -261,6 +262,48 @@ def answer_halo(found):
     simple.Delete(view)
 
 
+# More than 256 MiB, which gzip makes small.
+LARGE = """NRRD0004
+type: uint16
+dimension: 3
+sizes: 512 512 513
+endian: little
+space: RAS
+space directions: (0.1,0,0) (0,0.1,0) (0,0,0.1)
+space origin: (0,0,0)
+encoding: gzip
+
+"""
+
+
+def answer_packed(found, folder):
+    """A large file whose parts cannot be found."""
+    name = os.path.join(folder, "large.nrrd")
+    with open(name, "wb") as file:
+        file.write(LARGE.encode() + gzip.compress(bytes(2 * 512 * 512 * 513), 1))
+    with noting(found, "packed"):
+        reader = simple.NRRDVolumeReader(FileName=name)
+        reader.UpdatePipeline()
+    found["packed points"] = numpy.array([reader.GetDataInformation().GetNumberOfPoints()])
+
+
+def answer_card(found):
+    """No card takes all of its part. A stroke makes parts of two sizes, so sentences differ."""
+    import brainshift
+    view = view_along((-0.5, 0.3, -1), MIDDLE, 450.0, size=SIZE)
+    volume = simple.FreeFormDeformation(
+        Input=simple.Wavelet(WholeExtent=[-80, 80] * 3),
+        Strokes=brainshift.soft((50, 0, 0), (25, 0, 0), 40.0))
+    display = show_volume(volume, view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
+    display.AmbientOcclusion = 0
+    display.MemoryLimit = 32.0  # MiB; the field takes 25
+    with noting(found, "card"):
+        picture(view)
+        look(view, (0.9, 0.2, 0.4), MIDDLE, 450.0)
+        picture(view)
+    simple.Delete(view)
+
+
 def answer_step(found):
     """A step that is shorter than a ray of the whole volume allows."""
     view = view_along((-0.5, 0.3, -1), MIDDLE, 150.0, size=SIZE)
@@ -304,7 +347,7 @@ def answers(names, folder):
     found = {}
     for name in names:
         print("asks", name, flush=True)
-        arguments = [found, folder] if name == "file" else [found]
+        arguments = [found, folder] if name in ("file", "packed") else [found]
         QUESTIONS[name](*arguments)
     return found
 

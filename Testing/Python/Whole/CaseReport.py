@@ -168,6 +168,40 @@ def test_the_deviation_is_of_what_is_drawn():
     assert case.fit_source().Evidence == 0
 
 
+# Bright is dark at time 1. A display follows the range of the data, so that brighter would not do.
+INVERTED = """
+from vtkmodules.vtkImagingCore import vtkImageShiftScale
+asked = self.GetOutputInformation(0)
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+scaled = vtkImageShiftScale()
+scaled.SetInputData(self.GetInputDataObject(0, 0))
+scaled.SetShift(-318.0 * asked.Get(Pipeline.UPDATE_TIME_STEP()))
+scaled.SetScale(1.0 - 2.0 * asked.Get(Pipeline.UPDATE_TIME_STEP()))
+scaled.Update()
+self.GetImageDataOutput().ShallowCopy(scaled.GetOutput())
+"""
+HAS_TIMES = """
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+self.GetOutputInformation(0).Set(Pipeline.TIME_STEPS(), [0.0, 1.0], 2)
+self.GetOutputInformation(0).Set(Pipeline.TIME_RANGE(), [0.0, 1.0], 2)
+"""
+
+
+def test_pictures_are_of_the_time_that_is_shown():
+    simple.ResetSession()
+    load_plugin()
+    times = simple.ProgrammableFilter(
+        Input=simple.Wavelet(WholeExtent=[-15, 15] * 3), OutputDataSetType="vtkImageData",
+        Script=INVERTED, RequestInformationScript=HAS_TIMES)
+    case = brainshift.Case(volume=times)
+    found = []
+    for time in (0.0, 1.0, 0.0):
+        simple.GetTimeKeeper().Time = time
+        found.append(scenes.before_and_after(case, (120, 120))[1].astype(int))
+    assert numpy.array_equal(found[0], found[2])
+    assert abs(found[1] - found[0]).max(axis=2).mean() > 10, "the second is another"
+
+
 def test_hashes_are_of_all_that_is_read():
     """The hash and the size of a row change with voxels beside a header, slices and chunks, the
     hash with their names, too; the row says what they are."""

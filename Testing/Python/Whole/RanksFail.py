@@ -62,6 +62,17 @@ def test_what_one_rank_lacks_ends_on_all():
     assert found["file counts"] == 0
 
 
+def test_a_large_file_that_is_unpacked_by_all_is_told_once():
+    found = asked("packed")
+    assert_says_once(found["packed"], "large.nrrd: each of 2 MPI ranks unpacks the file")
+    assert found["packed points"] == 512 * 512 * (513 + 1), "both ranks have one layer"
+
+
+def test_the_first_rank_tells_what_others_draw_coarser():
+    lines = [line for line in str(asked("card")["card"]).splitlines() if "drawn coarser" in line]
+    assert ["MPI rank 1 of 2: The deformed" in line for line in lines] == [False, True], lines
+
+
 def test_contacts_count_once():
     expected, found = alone("electrodes"), asked("electrodes")
     assert len(expected["contacts"]) == 20 and expected["contacts in all"][0] == 20

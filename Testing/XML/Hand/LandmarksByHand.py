@@ -29,12 +29,13 @@ scene = {}
 
 
 def set_up():
-    head = simple.OpenDataFile(data("seg3d-utah", "seg3d_mr_t1.nii.gz"))
+    head, reference = (simple.OpenDataFile(data("seg3d-utah", "seg3d_mr_t1.nii.gz"))
+                       for _ in range(2))
     view = simple.GetActiveViewOrCreate("RenderView")
     simple.SetActiveSource(head)
     simple.Show(head, view)
     bent = window.bend()
-    compare = simple.CompareVolumes(registrationName="compare", Input=bent, Reference=head,
+    compare = simple.CompareVolumes(registrationName="compare", Input=bent, Reference=reference,
                                     ReferenceTranslation=SHIFT.tolist())
     compare.UpdatePipeline()
     simple.SetActiveView(view)
@@ -150,7 +151,17 @@ def drags_are_the_cameras_while_picking():
 
 
 def as_loaded_is_no_reference():
-    head, view = scene["bent"].Input, scene["views"]["volume"]
+    refuse_a_click_on(scene["bent"].Input)
+
+
+def before_align_is_no_reference():
+    """A comparison moves the reference, which another view shows where its file has it."""
+    refuse_a_click_on(scene["compare"].Reference)
+
+
+def refuse_a_click_on(head):
+    """A volume is shown alone: no landmark may be measured in it."""
+    view = scene["views"]["volume"]
     compared = simple.GetDisplayProperties(scene["compare"], view)
     hand.click("BrainShiftPickPairs")
     click_at("axial", scene["middle"] + PLACES[0])
@@ -397,7 +408,7 @@ def a_state_keeps_the_pairs():
 window.main("LandmarksByHand", [
     (set_up,), (lists_are_paired_by_order_on_request,), (half_a_pair_never_reaches_the_fit,),
     (drags_are_the_cameras_while_picking,), (as_loaded_is_no_reference,),
-    (place_under_a_click_in_3d,), (clicks_make_pairs,),
+    (before_align_is_no_reference,), (place_under_a_click_in_3d,), (clicks_make_pairs,),
     (table_shows_the_filters_numbers,), (worst_is_the_spoiled_one_and_a_tick_disables_it,),
     (marks_stand_in_the_views,), (letters_are_as_large_to_the_eye_at_200_percent,),
     (delete_is_one_step,), (a_state_keeps_the_pairs,)])
