@@ -292,6 +292,7 @@ def parse(arguments):
     parser.add_argument("--ranks-voxels", type=int, nargs=3, metavar="N", default=[512] * 3,
                         help="voxels of the volume that they draw (512 512 512)")
     parser.add_argument("--ranks-bits", type=int, choices=(8, 16), default=8)
+    parser.add_argument("--ranks-packed", action="store_true", help="the head is a .nii.gz file")
     parser.add_argument("--reference", type=int, nargs=3, metavar="N", default=REFERENCE,
                         help="voxels of the reference case (256 256 150)")
     parser.add_argument("--sizes", type=int, nargs="*", metavar="N",

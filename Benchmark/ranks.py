@@ -4,12 +4,16 @@
     ./brainshift bench --ranks [N ...]   # 1 2 4 8
                        [--ranks-voxels X Y Z]   # 512 512 512
                        [--ranks-bits 8|16]      # 8
+                       [--ranks-packed]         # .nii.gz
 
-The head of large.py lies in a raw NIfTI file, of which a rank reads the voxels of its part alone.
+The head of large.py lies in a NIfTI file. Of a raw one, a rank reads the voxels of its part alone.
 Each rank gets one thread for drawing. MPI spins while it waits, so that the processor time of a
 process says nothing:
 
 - Drawing is the processor time of the thread that draws (llvmpipe's), mean of 12 directions.
+- Exchange is the time of ParaView's Timer Log for voxels that a stroke beyond RankHalo sends, and
+  reading the time for ParaView's part of the file: what ranks would wait for if each asked its
+  reader for the voxels that it lacks.
 - Compositing is a picture in which every rank covers all pixels with next to no samples: the time
   that passed, times the cores that were busy, by ranks. It holds all that is not drawing.
 
@@ -68,6 +72,26 @@ def seconds_of_frames(head):
             (time.perf_counter() - wall) / DIRECTIONS)
 
 
+def seconds_of_reading(head):
+    """Of this rank's part of the file, once more."""
+    from vtkmodules.vtkParallelCore import vtkMultiProcessController
+    ranks = vtkMultiProcessController.GetGlobalController()
+    reader = head.bent.Input.GetClientSideObject()
+    reader.Modified()
+    begin = time.perf_counter()
+    reader.UpdatePiece(ranks.GetLocalProcessId(), ranks.GetNumberOfProcesses(), 0)
+    return time.perf_counter() - begin
+
+
+def seconds_of_exchanges():
+    """That this rank logged since it began."""
+    from vtkmodules.vtkCommonSystem import vtkTimerLog
+    logged = [(vtkTimerLog.GetEventString(i), vtkTimerLog.GetEventWallTime(i))
+              for i in range(vtkTimerLog.GetNumberOfEvents())]
+    times = [wall for name, wall in logged if name == "Exchange voxels between MPI ranks"]
+    return sum(end - begin for begin, end in zip(times[0::2], times[1::2]))
+
+
 def measured(head, maps):
     """What one rank finds; all of them run it."""
     import brainshift
@@ -75,7 +99,10 @@ def measured(head, maps):
     middle = tuple(head.middle)  # where parts meet
     for name, mm in (("within", WITHIN), ("beyond", BEYOND)):
         head.bent.Strokes = brainshift.soft(middle, (-mm / 3 ** 0.5,) * 3, 50.0)
+        before = seconds_of_exchanges()
         found[name] = held(head)
+        found[name]["seconds"] = seconds_of_exchanges() - before
+    found["reading"] = seconds_of_reading(head)
     head.bent.Strokes = brainshift.soft(middle, (-WITHIN / 3 ** 0.5,) * 3, 50.0)
     head.draw()
     for name, points in maps.items():
@@ -135,16 +162,20 @@ def tell(report, voxels, whole, found):
     draws = {name: 1000 * max(one[name][0] for one in found) for name in ("opaque", "translucent")}
     rest = 1000 * found[0]["compositing"][1] * min(ranks, os.cpu_count()) / ranks
     resident = max(one["resident"] for one in found)
+    exchange = max(one["beyond"]["seconds"] for one in found)
+    reading = max(one["reading"] for one in found)
     coarser = max(one["begin"]["coarser"] for one in found)
     drawn = f", drawn with one voxel for {coarser}," if coarser > 1 else ""
     report.fact(
         f"ranks: {ranks}. The largest{drawn} has {most['begin']:.0f} MiB of voxels on its card "
         f"({100 * most['begin'] * 2 ** 20 / whole:.0f} %), {resident:.0f} MiB resident at most; a "
         f"stroke of {WITHIN:.0f} mm sends voxels to {again['within']}, one of {BEYOND:.0f} mm to "
-        f"{again['beyond']}, which then have {more / 1e6:.1f} million more; drawing "
+        f"{again['beyond']}, which then have {more / 1e6:.1f} million more after {exchange:.2f} s; "
+        f"reading its part takes {reading:.2f} s; drawing "
         f"{draws['opaque']:.0f} ms (opaque), {draws['translucent']:.0f} ms (translucent); all else "
         f"{rest:.0f} ms",
-        ranks=ranks, held=most, again=again, more=more, draws=draws, rest=rest, resident=resident)
+        ranks=ranks, held=most, again=again, more=more, draws=draws, rest=rest, resident=resident,
+        exchange=exchange, reading=reading)
 
 
 def measure_ranks(options):
@@ -159,6 +190,9 @@ def measure_ranks(options):
     os.makedirs(folder)
     file = os.path.join(os.path.abspath(folder), "head.nii")
     large.write_file(file, size, [large.LONGEST_MM / max(size)] * 3, number)
+    if options.ranks_packed:
+        subprocess.run(["gzip", "-1", file], check=True)
+        file += ".gz"
     view = simple.CreateView("RenderView")
     simple.Render(view)
     report = Report(header(view.GetRenderWindow()))

@@ -38,8 +38,8 @@ struct WholeVolume
 using WholeRanges = std::map<std::pair<bool, std::string>, std::vector<std::array<double, 2>>>;
 
 /**
- * Gives each MPI rank the voxels that it wants of those that all ranks hold. Only voxels that
- * changed or are wanted anew are sent, so a stroke sends none. What the volume carries as field
+ * Gives each MPI rank the voxels that it wants of those that all ranks hold. They are sent when
+ * some changed or a rank wants others, so most strokes send none. What the volume carries as field
  * data, such as its deformation, is whole on each rank that holds voxels; others get it, too.
  *
  * The pipeline is not asked for other voxels than ParaView asks for: a reader would read its file
