@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Landmarks/CoordinateWords.h"
 
+#include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 
@@ -8,6 +9,7 @@
 #include <cctype>
 #include <iterator>
 #include <map>
+#include <numeric>
 
 namespace brainshift
 {
@@ -65,7 +67,7 @@ std::optional<FrameMeaning> frameOf(const std::string& word)
 std::vector<std::string> partsOf(std::string words)
 {
   const auto isBetween = [](char letter) {
-    return std::string(",;()[]\"'").find(letter) != std::string::npos;
+    return std::string(",;:=()[]\"'").find(letter) != std::string::npos;
   };
   std::replace_if(words.begin(), words.end(), isBetween, ' ');
   return wordsIn(words);
@@ -175,10 +177,48 @@ SaidOfPositions agreed(const SaidOfPositions& one, const SaidOfPositions& other)
     agreedOn(one.mm, other.mm, "units") };
 }
 
+SaidOfPositions saidByWords(const std::string& comment, bool isBelow, LandmarkList& list)
+{
+  constexpr const char* Fillers[] = { "all", "and", "are", "axes", "convention", "coordinate",
+    "coordinates", "frame", "in", "is", "of", "orientation", "point", "points", "position",
+    "positions", "scanner", "space", "system", "the", "unit", "units", "world", "x", "xyz", "y",
+    "z" };
+  constexpr const char* Others[] = { "voxel", "voxels", "vox", "ijk", "pixel", "pixels", "mni",
+    "mni152", "mni305", "talairach", "fsaverage", "tkras", "tkrras", "tkreg", "tkr" };
+  const std::vector<std::string> parts = partsOf(comment);
+  std::vector<SaidOfPositions> all;
+  all.reserve(parts.size());
+  bool isPlain = !isBelow || parts.size() > 1;
+  bool isDoubtful = false; // a word would change the positions
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const std::string word = trimmed(lowerCase(parts[i]), ".");
+    const bool isMeasure = parts[i] == "M" || (i > 0 && numberIn(parts[i - 1])); // such as 2 cm
+    const std::optional<double> mm = isMeasure ? std::nullopt : lengthOfUnit(word);
+    const bool isAxes = word == "ras" || word == "lps";
+    all.push_back({ isAxes ? std::optional(axesFrom(word)) : std::nullopt, mm });
+    isPlain = isPlain && (word.empty() || mm || isAxes || isOneOf(word, Fillers));
+    isDoubtful = isDoubtful || word == "lps" || isOneOf(word, Others) || (mm && *mm != 1.0);
+  }
+  if (isPlain)
+  {
+    return std::accumulate(all.begin(), all.end(), SaidOfPositions(), agreed);
+  }
+  if (isDoubtful)
+  {
+    noteOnce("has the comment \"" + shownWords(comment) +
+        "\", which does not count; if it is about the positions, write it as \"# units: cm\" or "
+        "\"# CoordinateSystem: LPS\"",
+      list);
+  }
+  return {};
+}
+
 bool saysUnit(const std::string& key)
 {
   constexpr const char* Keys[] = { "unit", "units", "coordinateunit", "coordinateunits",
-    "coordunit", "coordunits", "positionunit", "positionunits", "lengthunit", "lengthunits" };
+    "coordinatesunit", "coordinatesunits", "coordunit", "coordunits", "positionunit",
+    "positionunits", "lengthunit", "lengthunits" };
   return isOneOf(key, Keys);
 }
 

@@ -53,6 +53,14 @@ struct SaidOfPositions
 /** Two statements about the same positions. Throws the end of a sentence if they differ. */
 SaidOfPositions agreed(const SaidOfPositions& one, const SaidOfPositions& other);
 
+/**
+ * What the words of a comment without a known key say, such as "LPS, cm" or "coordinates: LPS". If
+ * other words are among them, they may be about something else: none, with a note.
+ *
+ * @param isBelow   the points, where one word alone may be a heading, such as that of a group
+ */
+SaidOfPositions saidByWords(const std::string& comment, bool isBelow, LandmarkList& list);
+
 ///@{
 /** Whether a key or a column says the unit or the frame: small letters and digits only. */
 bool saysUnit(const std::string& key);

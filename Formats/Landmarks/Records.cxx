@@ -103,9 +103,10 @@ CommentEntry commentEntry(const std::vector<std::string>& values, char separator
   {
     line += separator + values[i];
   }
+  const std::string words = trimmed(line, "# \t");
   const std::size_t mark = line.find_first_of("=:");
   return mark == std::string::npos
-    ? CommentEntry()
-    : CommentEntry{ keyOf(line.substr(0, mark)), trimmed(line.substr(mark + 1)) };
+    ? CommentEntry{ "", "", words }
+    : CommentEntry{ keyOf(line.substr(0, mark)), trimmed(line.substr(mark + 1)), words };
 }
 }

@@ -50,6 +50,7 @@ struct CommentEntry
 {
   std::string key;   ///< small letters and digits; empty: the comment has no = or :
   std::string value; ///< without blanks around it
+  std::string words; ///< all that is behind the #
 };
 
 /** Whether a record is a comment: it begins with #. */

@@ -147,6 +147,14 @@ struct Header
   bool isComment = false; // then the first line that is none is a point
 };
 
+// The names in a comment.
+Values namesIn(Values comment)
+{
+  comment[0] = trimmed(comment[0]);
+  comment[0].erase(0, comment[0].find_first_not_of('#'));
+  return comment;
+}
+
 bool areNumbers(const Values& values)
 {
   return std::all_of(values.begin(), values.end(),
@@ -171,9 +179,7 @@ Header headerIn(const std::string& text, char separator)
     {
       return { values };
     }
-    comment[0] = trimmed(comment[0]);
-    comment[0].erase(0, comment[0].find_first_not_of('#'));
-    return { comment, true };
+    return { namesIn(comment), true };
   }
   return {};
 }
@@ -265,7 +271,7 @@ std::optional<FileAxes> axesUnder(
 }
 
 // A line may say both, such as "# units: cm, CoordinateSystem: LPS" and "# axes = LPS (mm)".
-SaidOfPositions saidByComment(const CommentEntry& entry, LandmarkList& list)
+SaidOfPositions saidByComment(const CommentEntry& entry, bool isBelow, LandmarkList& list)
 {
   const std::string& words = entry.value;
   if (saysUnit(entry.key))
@@ -279,22 +285,27 @@ SaidOfPositions saidByComment(const CommentEntry& entry, LandmarkList& list)
     return { axesUnder(entry.key, words, list),
       namesLength(words) ? lengthUnder("unit", words, list) : std::nullopt };
   }
-  return {};
+  return saidByWords(entry.words, isBelow, list);
 }
 
-// What comments say of positions: "# CoordinateSystem = LPS", "# units: cm", above or below.
+// What comments say of positions: "# CoordinateSystem = LPS", "# LPS, cm", above or below. One that
+// has the names of columns says no more than they do.
 SaidOfPositions saidByComments(const std::string& text, char separator, LandmarkList& list)
 {
   SaidOfPositions said;
+  const Header header = headerIn(text, separator);
   RecordReader records(text, separator);
   Values values;
   bool isBelow = false;
   while (records.next(values))
   {
     const bool isOne = isComment(values) && (!isBelow || values.size() == 1);
-    const CommentEntry entry = isOne ? commentEntry(values, separator) : CommentEntry();
+    const bool hasNames = isOne && header.isComment && namesIn(values) == header.names;
+    if (isOne && !hasNames)
+    {
+      said = agreed(said, saidByComment(commentEntry(values, separator), isBelow, list));
+    }
     isBelow = isBelow || !isOne;
-    said = agreed(said, saidByComment(entry, list));
   }
   return said;
 }
@@ -484,6 +495,31 @@ Columns requiredColumns(
   return *columns;
 }
 
+// Programs that are known by the columns that they write, and whose axes these do not name.
+void noteProgram(
+  const Values& header, const PointColumns& columns, const TableRule& rule, LandmarkList& list)
+{
+  Values names(header.size());
+  std::transform(header.begin(), header.end(), names.begin(),
+    [](const std::string& name) { return lowerCase(trimmed(name)); });
+  const std::string position = lowerCase(columns.names[0] + columns.names[1] + columns.names[2]);
+  const bool isANTs =
+    names.size() > 3 && names[0] == "x" && names[1] == "y" && names[2] == "z" && names[3] == "t";
+  const bool hasElectrode = std::find(names.begin(), names.end(), "electrode") != names.end();
+  if (isANTs && position == "xyz" && rule.axes == FileAxes::RAS)
+  {
+    list.notes.emplace_back("begins with the columns x, y, z, t of points of ANTs, which are LPS; "
+                            "its positions count as RAS. If ANTs wrote them, choose LPS (Table "
+                            "Axes); if not, call the columns r, a, s");
+  }
+  if (hasElectrode && position == "coord_xcoord_ycoord_z")
+  {
+    list.notes.emplace_back("has the columns Electrode and Coord_x of RAVE, whose positions are "
+                            "those of a surface of FreeSurfer, not of the scanner; if RAVE wrote "
+                            "them, choose T1R, T1A and T1S (Position Columns)");
+  }
+}
+
 void readPointTable(const std::string& text, const LandmarkChoice& choice, LandmarkList& list)
 {
   const TableRule& rule = choice.table;
@@ -491,6 +527,7 @@ void readPointTable(const std::string& text, const LandmarkChoice& choice, Landm
   const Columns columns = requiredColumns(text, rule.columns, separator, list);
   const SaidOfPositions comments = saidByComments(text, separator, list);
   std::size_t skipped = 0;
+  bool isOpen = false; // of a point nothing says the axes
   forEachPoint(text, separator, [&](const Values& values, const std::string& where) {
     if (values.size() > columns.count)
     {
@@ -504,6 +541,7 @@ void readPointTable(const std::string& text, const LandmarkChoice& choice, Landm
       hasPlace = readPoint(values, columns, point);
       const SaidOfPositions said = agreed(comments, saidByRecord(values, columns, list));
       noteContradiction(said, columns.position, rule, list);
+      isOpen = isOpen || !(said.axes || columns.position.axes || rule.hasAxesBeside);
       point.position = placed(point.position, columns.position, said, rule);
       point.deviation *= mmOfDeviation(columns, said, rule);
     });
@@ -514,6 +552,10 @@ void readPointTable(const std::string& text, const LandmarkChoice& choice, Landm
     }
   });
   noteSkipped(list, skipped);
+  if (isOpen)
+  {
+    noteProgram(headerOf(text, separator), columns.position, rule, list);
+  }
 }
 
 bool looksLikePointTable(const std::string& beginning)

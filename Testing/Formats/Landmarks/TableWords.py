@@ -44,4 +44,67 @@ def test_a_coordsystem_that_contradicts_its_table_is_said():
     assert "units of 1000 mm by its own words, and of 1 mm" in said.text, said.text
 
 
+def read(name, text, **named):
+    """The first position of a table, and what is said."""
+    with messages() as said:
+        found = brainshift.read_points(written(name, text), **named)
+    return found.positions[0].tolist(), said.text
+
+
+def test_the_columns_of_ants_and_rave_are_told():
+    """Neither header names its axes: ANTs writes LPS, and RAVE those of FreeSurfer's surfaces."""
+    ants = "begins with the columns x, y, z, t of points of ANTs, which are LPS"
+    rows = "\n1,2,3,0,1,0\n4,5,6,0,2,0\n"
+    for head, named, right, words in (
+            ("x,y,z,t,label,comment", {}, [1, 2, 3], ants),
+            ("# x,y,z,t,label,comment", {}, [1, 2, 3], ants),  # as numpy.savetxt writes it
+            ("X,Y,Z,T,label,mass", {}, [1, 2, 3], ants),
+            ("x,y,z,t,label,comment", {"columns": ["x", "y", "z"]}, [1, 2, 3], ants),
+            ("x,y,z,t,label,comment", {"table_axes": "LPS"}, [-1, -2, 3], ""),
+            ("# axes: RAS\nx,y,z,t,label,comment", {}, [1, 2, 3], ""),
+            ("# axes: LPS\nx,y,z,t,label,comment", {}, [-1, -2, 3], ""),
+            ("r,a,s,t,label,comment", {}, [1, 2, 3], ""),
+            ("x,y,z,time,label,comment", {}, [1, 2, 3], "")):
+        found, said = read("ants.csv", head + rows, **named)
+        assert found == right and words in said and (words or not said), (head, named, said)
+    assert "LPS (Table Axes)" in read("ants.csv", "x,y,z,t\n1,2,3,0\n")[1]
+    rave = "those of a surface of FreeSurfer, not of the scanner"
+    for head, words in (("Electrode,Coord_x,Coord_y,Coord_z,Label", rave),
+                        ("# space: RAS\nElectrode,Coord_x,Coord_y,Coord_z,Label", ""),
+                        ("Site,Coord_x,Coord_y,Coord_z,Label", "")):
+        found, said = read("electrodes.csv", head + "\n13,1,2,3,G1\n14,4,5,6,G2\n")
+        assert found == [1, 2, 3] and words in said and (words or not said), (head, said)
+
+
+def test_comments_in_plain_words_count():
+    table = "name,x,y,z\na,1,2,3\n"
+    for comment, right in (
+            ("# coordinates: LPS", [-1, -2, 3]), ("# LPS, cm", [-10, -20, 30]),
+            ("# coordinates units: cm", [10, 20, 30]), ("# LPS", [-1, -2, 3]),
+            ("# All positions are in LPS (mm).", [-1, -2, 3]), ("# units cm", [10, 20, 30]),
+            ("# x, y, z in LPS", [-1, -2, 3]), ("# RAS mm", [1, 2, 3]),
+            ("# coordinates: RAS, units: cm", [10, 20, 30]), ("# in metres", [1000, 2000, 3000])):
+        assert read("plain.csv", f"{comment}\n{table}") == (right, ""), comment
+    below = read("plain.csv", f"{table}# coordinates: LPS\n")
+    assert below == ([-1, -2, 3], ""), below
+    for text, words in (("# LPS\n# RAS\n" + table, "two kinds of axes"),
+                        ("# coordinates in cm\n" + table.replace("x,y,z", "x_mm,y_mm,z_mm"),
+                         "two units"),
+                        ("# coordinates units: furlongs\n" + table, "the unit furlongs")):
+        assert words in refusal("plain.csv", text), text
+
+
+def test_comments_that_may_be_about_something_else_are_told():
+    table = "name,x,y,z\na,1,2,3\n"
+    told = "which does not count; if it is about the positions, write it as"
+    for comment in ("# made from LPS points", "# voxel coordinates", "# MNI space",
+                    "# cm on the scalp", "# tkRAS, mm"):
+        found, said = read("plain.csv", f"{comment}\n{table}")
+        assert found == [1, 2, 3] and said.count(told) == 1 and comment[2:] in said, (comment, said)
+    assert told in read("plain.csv", f"{table}# LPS\nb,4,5,6\n")[1]  # perhaps a group of contacts
+    for comment in ("# made by hand: yes", "# contacts of 0.2 cm", "# made by M", "#",
+                    "# RAS of the scan", "# one row for each point", "# time in ms", "# 5 mm apart"):
+        assert read("plain.csv", f"{comment}\n{table}") == ([1, 2, 3], ""), comment
+
+
 run_tests(globals())
