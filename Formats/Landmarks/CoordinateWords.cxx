@@ -73,14 +73,6 @@ std::vector<std::string> partsOf(std::string words)
   return wordsIn(words);
 }
 
-void noteOnce(const std::string& note, LandmarkList& list)
-{
-  if (std::find(list.notes.begin(), list.notes.end(), note) == list.notes.end())
-  {
-    list.notes.push_back(note);
-  }
-}
-
 template <typename Value>
 std::optional<Value> agreedOn(
   const std::optional<Value>& one, const std::optional<Value>& other, const char* what)
@@ -132,7 +124,7 @@ std::optional<double> lengthUnder(
       : "");
   if (!length)
   {
-    noteOnce(says + ", which is no length; its positions count as if it said none", list);
+    noteOnce(list, says + ", which is no length; its positions count as if it said none");
   }
   return length;
 }
@@ -167,7 +159,7 @@ void noteDoubt(const std::string& words, const FrameMeaning& frame, LandmarkList
 {
   if (!frame.doubt.empty())
   {
-    noteOnce("says the coordinate system " + shownWords(words) + ", " + frame.doubt, list);
+    noteOnce(list, "says the coordinate system " + shownWords(words) + ", " + frame.doubt);
   }
 }
 
@@ -198,7 +190,8 @@ SaidOfPositions saidByWords(const std::string& comment, bool isBelow, LandmarkLi
     const bool isAxes = word == "ras" || word == "lps";
     all.push_back({ isAxes ? std::optional(axesFrom(word)) : std::nullopt, mm });
     isPlain = isPlain && (word.empty() || mm || isAxes || isOneOf(word, Fillers));
-    isDoubtful = isDoubtful || word == "lps" || isOneOf(word, Others) || (mm && *mm != 1.0);
+    isDoubtful = isDoubtful || word == "lps" || isOneOf(word, Others) ||
+      (mm && *mm != 1.0 && word != "m"); // as in "I'm"
   }
   if (isPlain)
   {
@@ -206,10 +199,10 @@ SaidOfPositions saidByWords(const std::string& comment, bool isBelow, LandmarkLi
   }
   if (isDoubtful)
   {
-    noteOnce("has the comment \"" + shownWords(comment) +
+    noteOnce(list,
+      "has the comment \"" + shownWords(comment) +
         "\", which does not count; if it is about the positions, write it as \"# units: cm\" or "
-        "\"# CoordinateSystem: LPS\"",
-      list);
+        "\"# CoordinateSystem: LPS\"");
   }
   return {};
 }

@@ -101,6 +101,14 @@ std::string beginningAt(const std::string& where)
   return "has a " + where + " that ";
 }
 
+void noteOnce(LandmarkList& list, const std::string& note)
+{
+  if (std::find(list.notes.begin(), list.notes.end(), note) == list.notes.end())
+  {
+    list.notes.push_back(note);
+  }
+}
+
 void noteSkipped(LandmarkList& list, std::size_t skipped)
 {
   if (skipped > 0)

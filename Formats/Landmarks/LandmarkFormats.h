@@ -65,6 +65,9 @@ void addLandmark(LandmarkList& list, Landmark point, const std::string& where);
 /** The beginning of a sentence about a part of the file, such as "line 12". */
 std::string beginningAt(const std::string& where);
 
+/** Adds a note that is not there yet. */
+void noteOnce(LandmarkList& list, const std::string& note);
+
 /** Notes how many points were left out for want of a position. */
 void noteSkipped(LandmarkList& list, std::size_t skipped);
 

@@ -22,7 +22,8 @@ using Values = std::vector<std::string>;
 
 constexpr const char* FiducialColumns =
   "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
-constexpr std::size_t StatusColumn = 14; // Slicer 5 appends it without a name
+constexpr std::size_t StatusColumn = 14;   // Slicer 5 appends it without a name
+constexpr std::size_t CountOfSlicer5 = 16; // with it and the number of measurements
 constexpr const char* Placed = "2";
 
 // What the comment lines say.
@@ -31,8 +32,10 @@ struct FiducialHeader
   SaidOfPositions said;
   std::array<std::size_t, 3> position{ 1, 2, 3 };
   std::size_t label = 11;
-  bool hasStatus = true;
-  std::string columns; // as the file names them
+  std::size_t count = StatusColumn; // of the columns that have a name
+  std::string columns;              // as the file names them
+
+  bool hasStatus() const { return this->count == StatusColumn; }
 };
 
 void readColumns(const std::string& names, FiducialHeader& header)
@@ -47,7 +50,7 @@ void readColumns(const std::string& names, FiducialHeader& header)
   };
   header.position = { indexOf("x"), indexOf("y"), indexOf("z") };
   header.label = indexOf("label");
-  header.hasStatus = columns.size() <= StatusColumn;
+  header.count = columns.size();
   if (!(*std::max_element(header.position.begin(), header.position.end()) < columns.size()))
   {
     throw Problem("has no columns x, y and z; it names " + shownWords(names));
@@ -92,6 +95,24 @@ FiducialHeader headerOf(const std::string& text)
   return header;
 }
 
+// Decimals after a comma are values of their own. Rows that end early have id, x, y and z, or the
+// orientation, too.
+void requireCount(const Values& values, const FiducialHeader& header)
+{
+  constexpr std::array<const char*, 4> Statuses{ "0", "1", "2", "3" };
+  constexpr std::size_t Shortest = 4;
+  constexpr std::size_t Oriented = 8;
+  const std::size_t count = values.size();
+  const std::string status = count == CountOfSlicer5 ? trimmed(values[StatusColumn]) : "";
+  const bool isOfSlicer5 =
+    header.hasStatus() && std::find(Statuses.begin(), Statuses.end(), status) != Statuses.end();
+  const bool isBroken = header.hasStatus() && count > Shortest && count < Oriented;
+  throwIfAny(isBroken || (count > header.count && !isOfSlicer5)
+      ? joined("has ", count, " values for ", header.count,
+          " columns; write a point, not a comma, before decimals, and words with commas in quotes")
+      : "");
+}
+
 void readFiducial(const Values& values, const FiducialHeader& header, Landmark& point)
 {
   glm::dvec3 position(0.0);
@@ -120,6 +141,7 @@ void readFiducials(const std::string& text, const LandmarkChoice& /*choice*/, La
   RecordReader records(text, ',');
   while (records.next(values))
   {
+    throwIfAny(records.endedInQuotes() ? "ends inside quotes" : "");
     if (isComment(values))
     {
       continue;
@@ -127,8 +149,8 @@ void readFiducials(const std::string& text, const LandmarkChoice& /*choice*/, La
     const std::string where = "line " + std::to_string(records.line());
     Landmark point;
     point.number = static_cast<double>(++read);
-    const bool isPlaced =
-      !header.hasStatus || values.size() <= StatusColumn || trimmed(values[StatusColumn]) == Placed;
+    withBeginning(beginningAt(where), [&] { requireCount(values, header); });
+    const bool isPlaced = values.size() <= header.count || trimmed(values[StatusColumn]) == Placed;
     skipped += isPlaced ? 0 : 1;
     if (isPlaced)
     {
@@ -137,10 +159,6 @@ void readFiducials(const std::string& text, const LandmarkChoice& /*choice*/, La
     }
   }
   noteSkipped(list, skipped);
-  if (records.endedInQuotes())
-  {
-    throw Problem("ends inside quotes");
-  }
 }
 
 bool looksLikeFiducials(const std::string& beginning)

@@ -62,6 +62,7 @@ struct Columns
   NamedUnit deviationUnit;
   std::optional<double> deviationMm; // of its own unit
   std::size_t count = 0;
+  std::size_t named = 0; // without columns at the end that have no name
 };
 
 constexpr const char* UnitEnds[] = { "_mm", "_cm", "_m", "_um", "_inch", "_s", "_sec", "_ms", "_us",
@@ -120,6 +121,9 @@ std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
   Columns columns;
   columns.position = *position;
   columns.count = header.size();
+  const auto lastNamed = std::find_if(
+    header.rbegin(), header.rend(), [](const std::string& name) { return !trimmed(name).empty(); });
+  columns.named = static_cast<std::size_t>(header.rend() - lastNamed);
   columns.label = header.size();
   columns.time = placeOf("time");
   columns.deviation = placeOf("deviation");
@@ -406,9 +410,9 @@ void noteContradiction(const SaidOfPositions& said, const PointColumns& columns,
     " by its own words, and along ", isRAS ? "RAS" : "LPS", end);
   for (const auto& [isOther, note] : { std::pair{ isOtherUnit, unit }, { areOtherAxes, axes } })
   {
-    if (isOther && std::find(list.notes.begin(), list.notes.end(), note) == list.notes.end())
+    if (isOther)
     {
-      list.notes.push_back(note);
+      noteOnce(list, note);
     }
   }
 }
@@ -495,6 +499,25 @@ Columns requiredColumns(
   return *columns;
 }
 
+// Decimals after a comma are values of their own. A column of words needs no name.
+void requireCount(
+  const Values& values, const Columns& columns, const std::string& where, LandmarkList& list)
+{
+  throwIfAny(values.size() > columns.count ? "has " + std::to_string(values.size()) +
+        " values in " + where + "; its first line names " + std::to_string(columns.count) +
+        " columns, and a number has a point, not a comma, before its decimals"
+                                           : "");
+  for (std::size_t i = columns.named; i < values.size(); ++i)
+  {
+    if (numberIn(trimmed(values[i])))
+    {
+      noteOnce(list,
+        "has numbers in columns without a name; check whether its numbers have a comma "
+        "before their decimals, which must be a point");
+    }
+  }
+}
+
 // Programs that are known by the columns that they write, and whose axes these do not name.
 void noteProgram(
   const Values& header, const PointColumns& columns, const TableRule& rule, LandmarkList& list)
@@ -529,12 +552,7 @@ void readPointTable(const std::string& text, const LandmarkChoice& choice, Landm
   std::size_t skipped = 0;
   bool isOpen = false; // of a point nothing says the axes
   forEachPoint(text, separator, [&](const Values& values, const std::string& where) {
-    if (values.size() > columns.count)
-    {
-      throw Problem("has " + std::to_string(values.size()) + " values in " + where +
-        "; its first line names " + std::to_string(columns.count) +
-        " columns, and a number has a point, not a comma, before its decimals");
-    }
+    requireCount(values, columns, where, list);
     Landmark point;
     bool hasPlace = false;
     withBeginning(beginningAt(where), [&] {

@@ -292,8 +292,8 @@ def walked_fiducials_and_tags():
 
 def walked_tables():
     """Each list of names, and where the position 1 2 3 of such columns lies."""
-    seen = {"columns table", "several table", "n/a table", "time table", "deviation table",
-            "# x,y,z table"}
+    seen = {"columns table", "several table", "n/a table", "x,y,z,, table", "time table",
+            "deviation table", "# x,y,z table"}
     for entry, names, right in (
             ("x y z", "x,y,z", (1, 2, 3)), ("x y z", " X , Y [mm], z(mm)", (1, 2, 3)),
             ("r a s", "R,A,S", (1, 2, 3)), ("r a s", "right,anterior,superior", (1, 2, 3)),

@@ -102,9 +102,33 @@ def test_comments_that_may_be_about_something_else_are_told():
         found, said = read("plain.csv", f"{comment}\n{table}")
         assert found == [1, 2, 3] and said.count(told) == 1 and comment[2:] in said, (comment, said)
     assert told in read("plain.csv", f"{table}# LPS\nb,4,5,6\n")[1]  # perhaps a group of contacts
-    for comment in ("# made by hand: yes", "# contacts of 0.2 cm", "# made by M", "#",
-                    "# RAS of the scan", "# one row for each point", "# time in ms", "# 5 mm apart"):
+    for comment in ("# made by hand: yes", "# contacts of 0.2 cm", "# made by M", "# I'm here",
+                    "# RAS of the scan", "# one row for each", "# time in ms", "# 5 mm apart", "#"):
         assert read("plain.csv", f"{comment}\n{table}") == ([1, 2, 3], ""), comment
+
+
+def test_rows_with_more_values_than_columns_are_no_points():
+    """Decimals after a comma make values of their own: 1,5 is read as 1 in its column, 5 beside."""
+    slicer = "# CoordinateSystem = RAS\n"
+    few = "# columns = id,x,y,z,label\n"
+    for text, count in (
+            (f"{slicer}F1,1,2,3\nF2,1,5,2,5,3,5\n", "line 3 that has 7 values for 14 columns"),
+            (f"{slicer}F1,1,5,2,3\n", "5 values for 14 columns"),
+            (f"{slicer}F1,1,5,2,5,3,5,0,0,0,1,1,1,0,a,,\n", "17 values for 14 columns"),
+            (f"{slicer}F1,1,5,2,3,0,0,0,1,1,1,0,a,,\n", "15 values for 14 columns"),
+            (f"{slicer}F1,1,5,2,5,3,0,0,0,1,1,1,0,a,,\n", "16 values for 14 columns"),
+            (f"{slicer}F1,1,5,2,3,0,0,0,1,1,1,0,a,,,2,0\n", "17 values for 14 columns"),
+            (f"{few}F1,1,5,2,5,3,5,a\n", "8 values for 5 columns")):
+        assert count in refusal("comma.fcsv", text), text
+    for text in (f"{slicer}F1,1,2,3\n", f"{few}F1,1,2,3,a\n", f"{slicer}F1,1,2,3,0,0,0,1\n",
+                 f"{slicer}F1,1,2,3,0,0,0,1,1,1,0,a,,\n",
+                 f"{slicer}F1,1,2,3,0,0,0,1,1,1,0,a,,,2,0\n"):
+        assert read("comma.fcsv", text) == ([1, 2, 3], ""), text
+    told = "has numbers in columns without a name"
+    for text, words in (("x,y,z,,,\n1,5,2,5,3,5\n", told), ("x,y,z,\n1,2,3,\n", ""),
+                        ("x,y,z,\n1,2,3,a\n", "takes the names"), (",x,y,z\n7,1,2,3\n", "")):
+        said = read("comma.csv", text)[1]
+        assert words in said and (words == told) == (told in said) and (words or not said), said
 
 
 run_tests(globals())
