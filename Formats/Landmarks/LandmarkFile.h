@@ -26,7 +26,8 @@ bool isLandmarkFile(const std::string& fileName);
 /**
  * Reads a file, or throws one sentence, without a full stop.
  *
- * @param volume   of a .tag file, whose points are read: 1 or 2
+ * @param volume   of a .tag file, whose points are read: 1 or 2; 0: the first, with a note if there
+ *                 are two
  * @param table    what a table does not tell; its unit comes from the coordsystem.json of BIDS
  */
 LandmarkList readLandmarkFile(const std::string& fileName, int volume, const TableRule& table);

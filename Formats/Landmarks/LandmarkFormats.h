@@ -84,7 +84,7 @@ struct TableRule
 /** What the reader of a file is told beside its text. Each format takes what concerns it. */
 struct LandmarkChoice
 {
-  int volume = 1;  ///< of an MNI tag file, whose points are read: 1 or 2
+  int volume = 0;  ///< of an MNI tag file, whose points are read: 1 or 2; 0: the first, with a note
   TableRule table; ///< of a table
 };
 

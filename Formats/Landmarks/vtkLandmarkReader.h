@@ -42,8 +42,11 @@ public:
   ///@}
 
   ///@{
-  /** The volume of a .tag file whose points are read: 1 (default) or 2. */
-  vtkSetClampMacro(Volume, int, 1, 2);
+  /**
+   * The volume of a .tag file whose points are read: 1 or 2. Default: 0, which reads those of the
+   * first, with a warning if there are two.
+   */
+  vtkSetClampMacro(Volume, int, 0, 2);
   vtkGetMacro(Volume, int);
   ///@}
 
@@ -81,7 +84,7 @@ private:
   void operator=(const vtkLandmarkReader&) = delete;
 
   std::string FileName;
-  int Volume = 1;
+  int Volume = 0;
   int TableAxes = RAS;
   std::vector<std::string> PositionColumns;
   std::string Problem = "Nothing was read";

@@ -242,8 +242,13 @@ void readTags(const std::string& text, const LandmarkChoice& choice, LandmarkLis
 
   Reading reading;
   reading.coordinates = 3 * volumes;
-  reading.offset = 3 * static_cast<std::size_t>(choice.volume - 1);
+  reading.offset = choice.volume == 2 ? 3 : 0;
   readPoints(words, reading, list);
+  if (volumes == 2 && choice.volume == 0)
+  {
+    list.notes.emplace_back("has the points of two volumes, of which those of the first are read; "
+                            "set Volume to 1 or 2");
+  }
 }
 
 // Those of one volume. Quotes in labels become apostrophes, new lines spaces.

@@ -384,7 +384,8 @@ class Case(Steps, Moments, TimedTraces, Resections, Exports):
         if isinstance(value, (str, os.PathLike)) and os.path.isfile(value) and holds_both(value):
             path = os.fspath(value)
             if ending(path) == ".tag":
-                return opened(path, "landmarks"), opened(path, "measured", Volume=2)
+                return (opened(path, "landmarks", Volume=1),
+                        opened(path, "measured", Volume=2))
             return tuple(opened(path, "landmarks", PositionColumns=columns)
                          for columns in landmark_columns(path))
         pair = value if isinstance(value, (tuple, list)) else (value, None)

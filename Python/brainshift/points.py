@@ -49,11 +49,12 @@ def read_from(source):
                   numbers("Number"), numbers("Time"), numbers("Deviation"))
 
 
-def read_points(name, volume=1, table_axes="RAS", columns=None):
+def read_points(name, volume=0, table_axes="RAS", columns=None):
     """Read landmarks or traced points from a file.
 
     - `name`: path of the file. It ends in `.mrk.json`, `.json`, `.fcsv`, `.tag`, `.csv` or `.tsv`.
-    - `volume`: 1, the default, or 2, the volume of an MNI tag file whose points are read.
+    - `volume`: 1 or 2, the volume of an MNI tag file whose points are read. The default, `0`, reads
+      the first, with a warning if there are two.
     - `table_axes`: `"RAS"`, the default, or `"LPS"`, the axes of a table whose columns are called
       x, y and z.
     - `columns`: names of the three columns of a table that hold the position, in the order x, y, z.
@@ -121,7 +122,7 @@ def _path(name, value):
     return os.fspath(value)
 
 
-def map_points(file_in, file_out, filter=None, direction="forward", volume=1, table_axes="RAS",
+def map_points(file_in, file_out, filter=None, direction="forward", volume=0, table_axes="RAS",
                file_axes="Of The Format", transform=None, columns=None):
     """Map the points of a file and write them to another file, labels and all.
 

@@ -59,8 +59,15 @@ def test_tags_of_two_volumes():
         body = file.read().split("Points =")[1]
     numbers = numpy.array(re.findall(r"-?\d+\.\d+", body), float).reshape(-1, 6)
     assert len(numbers) == 15
-    assert numpy.array_equal(brainshift.read_points(RESECT).positions, numbers[:, :3])
-    assert numpy.array_equal(brainshift.read_points(RESECT, volume=2).positions, numbers[:, 3:])
+    for named, right in (({}, numbers[:, :3]), ({"volume": 1}, numbers[:, :3]),
+                         ({"volume": 2}, numbers[:, 3:])):
+        with messages() as said:
+            found = brainshift.read_points(RESECT, **named)
+        assert numpy.array_equal(found.positions, right), named
+        assert ("the points of two volumes" in said.text) == (not named), (named, said.text)
+    with messages() as said:  # a case reads both
+        rest, measured = brainshift.Case(landmarks=RESECT).landmarks
+    assert (rest.Volume, measured.Volume) == (1, 2) and "two volumes" not in said.text, said.text
 
 
 def test_tags_of_one_volume():
