@@ -57,18 +57,29 @@ void readColumns(const std::string& names, FiducialHeader& header)
   }
 }
 
-// A comment "# key = value" or "# key: value", and others, which say nothing.
-void readComment(const CommentEntry& entry, FiducialHeader& header)
+// A comment "# key = value" or "# key: value", and others, whose words may say axes and units.
+void readComment(
+  const CommentEntry& entry, bool isBelow, FiducialHeader& header, LandmarkList& list)
 {
   if (entry.key == "coordinatesystem")
   {
     header.said = agreed(header.said, { axesFrom(entry.value), std::nullopt });
   }
-  if (saysUnit(entry.key) && lowerCase(entry.value) != "mm")
+  else if (saysUnit(entry.key))
   {
-    throw Problem("has " + entry.key + " " + shownWords(entry.value) + "; they must be mm");
+    throwIfAny(lowerCase(entry.value) != "mm"
+        ? "has " + entry.key + " " + shownWords(entry.value) + "; they must be mm"
+        : "");
   }
-  if (entry.key == "columns")
+  else if (entry.key != "columns")
+  {
+    const SaidOfPositions said = saidByWords(entry.words, isBelow, list);
+    throwIfAny(said.mm.value_or(1.0) != 1.0
+        ? "has the comment \"" + shownWords(entry.words) + "\"; its units must be mm"
+        : "");
+    header.said = agreed(header.said, said);
+  }
+  else
   {
     if (!header.columns.empty() && header.columns != entry.value)
     {
@@ -80,16 +91,18 @@ void readComment(const CommentEntry& entry, FiducialHeader& header)
 }
 
 // What the comments say, above the points or below them.
-FiducialHeader headerOf(const std::string& text)
+FiducialHeader headerOf(const std::string& text, LandmarkList& list)
 {
   FiducialHeader header;
+  bool isBelow = false;
   Values values;
   RecordReader records(text, ',');
   while (records.next(values))
   {
+    isBelow = isBelow || !isComment(values);
     if (isComment(values))
     {
-      readComment(commentEntry(values, ','), header);
+      readComment(commentEntry(values, ','), isBelow, header, list);
     }
   }
   return header;
@@ -134,7 +147,7 @@ void readFiducial(const Values& values, const FiducialHeader& header, Landmark& 
 
 void readFiducials(const std::string& text, const LandmarkChoice& /*choice*/, LandmarkList& list)
 {
-  const FiducialHeader header = headerOf(text);
+  const FiducialHeader header = headerOf(text, list);
   std::size_t read = 0;
   std::size_t skipped = 0;
   Values values;

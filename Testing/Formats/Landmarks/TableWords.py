@@ -107,6 +107,18 @@ def test_comments_that_may_be_about_something_else_are_told():
         assert read("plain.csv", f"{comment}\n{table}") == ([1, 2, 3], ""), comment
 
 
+def test_comments_of_fiducials_count_as_those_of_tables():
+    row = "F1,1,2,3\n"
+    for comment, right in (("# coordinates: LPS", [-1, -2, 3]), ("# space = LPS", [-1, -2, 3]),
+                           ("# RAS, mm", [1, 2, 3]), ("# name = F", [1, 2, 3])):
+        found, said = read("words.fcsv", f"# Markups fiducial file\n{comment}\n{row}")
+        assert found == right and not said, (comment, said)
+    assert "does not count" in read("words.fcsv", f"# made of LPS points\n{row}")[1]
+    for comment, words in (("# coordinates in cm", "its units must be mm"),
+                           ("# LPS\n# CoordinateSystem = RAS", "contradicts itself")):
+        assert words in refusal("words.fcsv", f"{comment}\n{row}"), comment
+
+
 def test_rows_with_more_values_than_columns_are_no_points():
     """Decimals after a comma make values of their own: 1,5 is read as 1 in its column, 5 beside."""
     slicer = "# CoordinateSystem = RAS\n"
