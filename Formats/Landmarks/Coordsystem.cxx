@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <string_view>
 
 namespace brainshift
 {
@@ -32,6 +33,20 @@ std::set<std::string> entitiesOf(const std::string& name)
     at = end + 1;
   }
   return entities;
+}
+
+// The space that a name has, such as CTF in sub-01_space-CTF_electrodes.tsv; empty: none.
+std::string spaceOf(const fs::path& table)
+{
+  constexpr std::string_view Key = "space-";
+  for (const std::string& entity : entitiesOf(table.filename().string()))
+  {
+    if (entity.compare(0, Key.size(), Key) == 0)
+    {
+      return entity.substr(Key.size());
+    }
+  }
+  return {};
 }
 
 // The file in a folder that is about a table: of those whose entities are all the table's, the one
@@ -161,6 +176,11 @@ std::optional<ElectrodeFrame> electrodeFrame(const std::string& tableName, Landm
         ? "has no coordsystem.json beside it; the unit counts as mm unless the table names it"
         : "has no coordsystem.json of its own: " + shownWords(other) +
           " is about other positions; the unit counts as mm unless the table names it");
+    const std::string space = spaceOf(tableName);
+    if (!space.empty())
+    {
+      noteDoubt(space, frameIn(space), list);
+    }
     return ElectrodeFrame();
   }
   ElectrodeFrame electrodes;

@@ -528,18 +528,26 @@ void noteProgram(
   const std::string position = lowerCase(columns.names[0] + columns.names[1] + columns.names[2]);
   const bool isANTs =
     names.size() > 3 && names[0] == "x" && names[1] == "y" && names[2] == "z" && names[3] == "t";
-  const bool hasElectrode = std::find(names.begin(), names.end(), "electrode") != names.end();
+  const auto has = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
   if (isANTs && position == "xyz" && rule.axes == FileAxes::RAS)
   {
     list.notes.emplace_back("begins with the columns x, y, z, t of points of ANTs, which are LPS; "
                             "its positions count as RAS. If ANTs wrote them, choose LPS (Table "
                             "Axes); if not, call the columns r, a, s");
   }
-  if (hasElectrode && position == "coord_xcoord_ycoord_z")
+  if (has("electrode") && position == "coord_xcoord_ycoord_z")
   {
     list.notes.emplace_back("has the columns Electrode and Coord_x of RAVE, whose positions are "
                             "those of a surface of FreeSurfer, not of the scanner; if RAVE wrote "
                             "them, choose T1R, T1A and T1S (Position Columns)");
+  }
+  if (has("sph_theta") && position == "xyz")
+  {
+    list.notes.emplace_back("has the column sph_theta of EEGLAB, whose x points to the front and y "
+                            "to the left; its positions count as they are. If EEGLAB wrote them, "
+                            "call them A, L, S and choose these (Position Columns)");
   }
 }
 

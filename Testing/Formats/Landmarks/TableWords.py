@@ -51,8 +51,9 @@ def read(name, text, **named):
     return found.positions[0].tolist(), said.text
 
 
-def test_the_columns_of_ants_and_rave_are_told():
-    """Neither header names its axes: ANTs writes LPS, and RAVE those of FreeSurfer's surfaces."""
+def test_the_columns_of_ants_and_rave_and_eeglab_are_told():
+    """No header names its axes: those of ANTs are LPS, those of RAVE are FreeSurfer's, and those of
+    EEGLAB go to the front and the left."""
     ants = "begins with the columns x, y, z, t of points of ANTs, which are LPS"
     rows = "\n1,2,3,0,1,0\n4,5,6,0,2,0\n"
     for head, named, right, words in (
@@ -74,6 +75,21 @@ def test_the_columns_of_ants_and_rave_are_told():
                         ("Site,Coord_x,Coord_y,Coord_z,Label", "")):
         found, said = read("electrodes.csv", head + "\n13,1,2,3,G1\n14,4,5,6,G2\n")
         assert found == [1, 2, 3] and words in said and (words or not said), (head, said)
+
+
+    channels = "labels,theta,radius,{},sph_theta,sph_phi\nFp1,-18,0.5,80,26,-4,18,-2\n"
+    assert "to the front and y to the left" in read("eeglab.csv", channels.format("X,Y,Z"))[1]
+    turned = read("eeglab.csv", channels.format("A,L,S"), columns=["A", "L", "S"])
+    assert turned[0] == [-26, 80, -4] and "front" not in turned[1], turned
+
+
+def test_the_space_in_the_name_of_electrodes_counts_without_a_coordsystem():
+    rows = "name\tx\ty\tz\nA\t1\t2\t3\n"
+    for space, words in (("MNI152Lin", "that of a template"), ("ScanRAS", ""),
+                         ("Mine", "not known"), ("CapTrak", "between the ears")):
+        said = read(f"sub-77_space-{space}_electrodes.tsv", rows)[1]
+        assert words in said and ("coordinate system" in said) == bool(words), (space, said)
+    assert "x points to the front" in refusal("sub-77_space-CTF_electrodes.tsv", rows)
 
 
 def test_comments_in_plain_words_count():
