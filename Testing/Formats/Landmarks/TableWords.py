@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that a table of landmarks whose columns name two positions, or that contradicts the
-# coordsystem.json beside it, is refused or told by sentences that are true.
+# coordsystem.json beside it, is refused or told by sentences that are true; and that what comments
+# and columns of known programs say of axes and units counts or is told.
 import json
 
 from brainshift_testing import load_plugin, messages, run_tests
@@ -75,8 +76,6 @@ def test_the_columns_of_ants_and_rave_and_eeglab_are_told():
                         ("Site,Coord_x,Coord_y,Coord_z,Label", "")):
         found, said = read("electrodes.csv", head + "\n13,1,2,3,G1\n14,4,5,6,G2\n")
         assert found == [1, 2, 3] and words in said and (words or not said), (head, said)
-
-
     channels = "labels,theta,radius,{},sph_theta,sph_phi\nFp1,-18,0.5,80,26,-4,18,-2\n"
     assert "to the front and y to the left" in read("eeglab.csv", channels.format("X,Y,Z"))[1]
     turned = read("eeglab.csv", channels.format("A,L,S"), columns=["A", "L", "S"])
