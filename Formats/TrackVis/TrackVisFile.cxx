@@ -29,6 +29,7 @@ constexpr std::size_t NameBytes = 20;
 constexpr int MostNames = 10;          // as the header has room for
 constexpr double SmallestCosine = 0.1; // of an axis with the direction that its letter names
 constexpr double EqualCosines = 1e-3;  // that differ by no more
+constexpr double EqualSizes = 1e-3;    // of voxels, as a fraction: 0.25 voxels in 256
 
 // The names are those of the format.
 struct TrackHeader
@@ -208,6 +209,24 @@ glm::dmat4 givenMatrix(const TrackHeader& header, const std::string& volumeName)
   return grid.worldFromVoxel;
 }
 
+// The size of a voxel is there twice: voxel_size takes points to voxels, the matrix these to mm.
+void noteSizes(const TrackHeader& header, const glm::dmat4& world, Tracts& tracts)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double size = header.voxelSize(axis);
+    const double column = glm::length(glm::dvec3(world[axis]));
+    if (std::abs(size - column) > EqualSizes * column)
+    {
+      tracts.notes.push_back(joined("has the voxel_size ", size, " mm along axis ", axis,
+        ", but the voxels of its ", header.hasMatrix() ? "vox_to_ras" : "Volume", " are ", column,
+        " mm long there. voxel_size takes points to voxels, as the format says, so the streamlines "
+        "are stretched by ",
+        column / size, "; compare them with their volume"));
+    }
+  }
+}
+
 glm::dmat4 findPlace(const TrackHeader& header, const std::string& volumeName, Tracts& tracts)
 {
   glm::dmat4 voxel = voxelFromStored(header);
@@ -224,6 +243,7 @@ glm::dmat4 findPlace(const TrackHeader& header, const std::string& volumeName, T
   }
   const glm::dmat4 world = header.hasMatrix() ? header.voxToRas() : givenMatrix(header, volumeName);
   withBeginning("cannot be placed: ", [&] { requireAffine(world); });
+  noteSizes(header, world, tracts);
   turnAxes(header, world, voxel);
   if (!header.hasVoxelOrder())
   {

@@ -149,6 +149,20 @@ def test_trackvis_axes_that_are_not_perpendicular_are_told():
     read(written("sheared.trk", data), ("sheared: the cosine between two axes", "0.371"))
 
 
+def test_trackvis_sizes_of_voxels_that_differ_are_told():
+    """Where nibabel puts them: voxel_size takes points to voxels, before the matrix."""
+    image = nibabel.MGHImage(numpy.zeros((8, 8, 8), numpy.uint8), numpy.diag((2, 2, 2, 1)))
+    data = bytes_of(write_tracts(scratch("sizes.trk"), LINES, image))
+    for size, words in ((2.001, ()), (1.0, ("voxel_size 1 mm along axis 1", "vox_to_ras are 2 mm",
+                                            "stretched by 2"))):
+        struct.pack_into("<f", data, 16, size)
+        name = written("sizes.trk", data)
+        assert_lines(read(name, words), judged(name))
+    data[440:504] = bytes(64)
+    nibabel.save(image, scratch("sizes.mgz"))
+    read(written("sizes.trk", data), ["voxels of its Volume are 2 mm"], Volume=scratch("sizes.mgz"))
+
+
 def test_trackvis_axes_turn_around_within_a_volume():
     name = write_tracts(scratch("turned.trk"), LINES, next(volumes()))
     data = bytes_of(name)
