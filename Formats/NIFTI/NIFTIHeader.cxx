@@ -2,12 +2,14 @@
 #include "Formats/NIFTI/NIFTIHeader.h"
 
 #include "Common/Bytes.h"
+#include "Common/Numbers.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Volumes/VolumeFile.h"
 
 #include "vtk_zlib.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -291,6 +293,49 @@ glm::dmat4 worldByQform(const NIFTIPlacement& placement)
   return affine(glm::dmat3(size.x * axes[0], size.y * axes[1], size.z * axes[2]), offset);
 }
 
+// The largest distance between the places of a corner of the grid, mm.
+double farthestCorner(const glm::dmat4& one, const glm::dmat4& other, const glm::ivec3& dimensions)
+{
+  double farthest = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+    const glm::dvec4 voxel(side * (dimensions - 1), 1.0);
+    farthest = std::max(farthest, glm::length((one - other) * voxel));
+  }
+  return farthest;
+}
+
+// How a qform contradicts the sform, which counts. Files are rounded: half a voxel and what float32
+// loses of a quaternion go without a word.
+void noteOtherPlace(
+  const NIFTIPlacement& placement, const glm::dmat4& world, std::vector<std::string>& warnings)
+{
+  constexpr double LostAngle = 1e-3; // rad, near half a turn
+  const glm::dmat4 other = worldByQform(placement);
+  if (glm::determinant(glm::dmat3(world)) * glm::determinant(glm::dmat3(other)) < 0.0)
+  {
+    warnings.emplace_back("has a qform that mirrors the volume against its sform: left and "
+                          "right are exchanged in one of them; the sform counts");
+    return;
+  }
+  double voxel = glm::length(world[0]);
+  double diagonal = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double side = glm::length(world[axis]);
+    voxel = std::min(voxel, side);
+    diagonal = std::hypot(diagonal, side * (placement.dimensions[axis] - 1));
+  }
+  const double distance = farthestCorner(world, other, placement.dimensions);
+  if (distance > std::max(0.5 * voxel, LostAngle * diagonal))
+  {
+    warnings.push_back(joined("has a qform that places its corners up to ", roundedText(distance),
+      " mm from where its sform does; the sform counts. If the qform is the right one, make it the "
+      "sform, as fslorient -copyqform2sform does"));
+  }
+}
+
 // What does not count of the numbers that worldByQform takes.
 void noteQform(const NIFTIPlacement& placement, std::vector<std::string>& warnings)
 {
@@ -413,12 +458,9 @@ glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement, std::vector<std::stri
   else if (placement.sformCode > 0)
   {
     const glm::dmat4 world = worldBySform(placement);
-    if (hasQform &&
-      glm::determinant(glm::dmat3(world)) * glm::determinant(glm::dmat3(worldByQform(placement))) <
-        0.0)
+    if (hasQform)
     {
-      warnings.emplace_back("has a qform that mirrors the volume against its sform: left and "
-                            "right are exchanged in one of them; the sform counts");
+      noteOtherPlace(placement, world, warnings);
     }
     return world;
   }

@@ -37,6 +37,7 @@ int bytesOfNIFTIVoxel(int dataType);
 /** The numbers of the header that place voxels, as they are stored. */
 struct NIFTIPlacement
 {
+  glm::ivec3 dimensions{ 1 };            ///< voxels along each axis
   int sformCode = 0;                     ///< above 0: the sform holds
   int qformCode = 0;                     ///< above 0: the qform holds, unless the sform does
   std::array<glm::dvec4, 3> sformRows{}; ///< srow_x, srow_y, srow_z

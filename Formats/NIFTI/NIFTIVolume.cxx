@@ -151,6 +151,10 @@ std::vector<Label> niftiLabels(const std::string& text)
 NIFTIPlacement placementOf(vtkNIFTIImageHeader* header)
 {
   NIFTIPlacement placement;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    placement.dimensions[axis] = static_cast<int>(header->GetDim(axis + 1));
+  }
   placement.sformCode = header->GetSFormCode();
   placement.qformCode = header->GetQFormCode();
   const double* const rows[3] = { header->GetSRowX(), header->GetSRowY(), header->GetSRowZ() };

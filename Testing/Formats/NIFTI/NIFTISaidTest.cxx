@@ -149,6 +149,45 @@ TEST(NIFTISaid, TheTwoPlacesOfAVolume)
   expectSays(file, "column 0 of the affine has length 0 mm");
 }
 
+// A volume of 100 mm with a sform and a qform, in mm.
+TEST(NIFTISaid, HowFarTheTwoPlacesAreFromEachOther)
+{
+  NIFTITestFile file = withSform(glm::dmat4(1.0));
+  file.qformCode = 1;
+  file.dimensions = { 101, 3, 5 };
+  file.qformOffset = glm::dvec3(0.0, 0.4, 0.0); // less than half a voxel
+  EXPECT_EQ(said(file), "");
+  file.qformOffset = glm::dvec3(0.0, 3.0, 4.0);
+  expectSays(file, "has a qform that places its corners up to 5 mm from where its sform does");
+  expectSays(file, "the sform counts");
+  file.qformOffset = glm::dvec3(0.0);
+  file.quaternion = glm::dvec3(0.0, 0.0, std::sin(0.005)); // turned by 0.01 around z
+  expectSays(file, "up to 1 mm");
+  file.quaternion = glm::dvec3(0.0, 0.0, std::sin(0.0015)); // a corner is 0.3 mm away
+  EXPECT_EQ(said(file), "");
+  file.quaternion = glm::dvec3(0.0);
+  file.pixelSize[0] = 1.1;
+  expectSays(file, "up to 10 mm");
+  file.units = 1 + 8; // metres
+  expectSays(file, "up to 10000 mm");
+}
+
+// float32 loses up to 3e-4 of a quaternion's real part near half a turn.
+TEST(NIFTISaid, RoundedQuaternionsAreNotTold)
+{
+  const double angle = 6e-4; // less than half a turn
+  glm::dmat4 sform(0.1);
+  sform[0] = glm::dvec4(-0.1 * std::cos(angle), 0.1 * std::sin(angle), 0.0, 0.0);
+  sform[1] = glm::dvec4(-0.1 * std::sin(angle), -0.1 * std::cos(angle), 0.0, 0.0);
+  sform[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
+  NIFTITestFile file = withSform(sform);
+  file.qformCode = 1;
+  file.dimensions = { 2000, 2, 2 };
+  file.pixelSize = { 0.1, 0.1, 0.1, 0.0 };
+  file.quaternion = glm::dvec3(0.0, 0.0, std::cos(0.5 * angle));
+  EXPECT_EQ(said(file), "");
+}
+
 TEST(NIFTISaid, NumbersOfTheQformThatDoNotCount)
 {
   NIFTITestFile file;
