@@ -7,28 +7,72 @@
 
 namespace brainshift
 {
+namespace
+{
+// A file that is closed when it is no longer needed. HDF5 writes no errors to the terminal as long.
+class QuietFile
+{
+public:
+  explicit QuietFile(const std::string& fileName)
+  {
+    H5Eget_auto2(H5E_DEFAULT, &this->Print, &this->Data);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    this->Id = H5Fopen(fileName.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  }
+  ~QuietFile()
+  {
+    if (this->Id >= 0)
+    {
+      H5Fclose(this->Id);
+    }
+    H5Eset_auto2(H5E_DEFAULT, this->Print, this->Data);
+  }
+  QuietFile(const QuietFile&) = delete;
+  QuietFile& operator=(const QuietFile&) = delete;
+
+  hid_t get() const { return this->Id; }
+
+private:
+  H5E_auto2_t Print = nullptr;
+  void* Data = nullptr;
+  hid_t Id = -1;
+};
+}
+
 std::vector<std::string> missingAttributes(
   const std::string& fileName, const std::string& axis, const std::vector<std::string>& attributes)
 {
-  H5E_auto2_t print = nullptr;
-  void* data = nullptr;
-  H5Eget_auto2(H5E_DEFAULT, &print, &data);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // no errors on the terminal
-  const hid_t file = H5Fopen(fileName.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const QuietFile file(fileName);
   const std::string path = "/minc-2.0/dimensions/" + axis;
   std::vector<std::string> missing;
-  for (const std::string& attribute : attributes)
+  for (const std::string& name : attributes)
   {
-    if (file < 0 || H5Aexists_by_name(file, path.c_str(), attribute.c_str(), H5P_DEFAULT) <= 0)
+    if (file.get() < 0 ||
+      H5Aexists_by_name(file.get(), path.c_str(), name.c_str(), H5P_DEFAULT) <= 0)
     {
-      missing.push_back(attribute);
+      missing.push_back(name);
     }
   }
-  if (file >= 0)
-  {
-    H5Fclose(file);
-  }
-  H5Eset_auto2(H5E_DEFAULT, print, data);
   return missing;
+}
+
+std::string orderOfMINC(const std::string& fileName, const std::string& array)
+{
+  constexpr std::size_t LongestOrder = 1024;
+  const QuietFile file(fileName);
+  const std::string path = "/minc-2.0/image/0/" + array;
+  const hid_t attribute =
+    H5Aopen_by_name(file.get(), path.c_str(), "dimorder", H5P_DEFAULT, H5P_DEFAULT);
+  if (attribute < 0)
+  {
+    return {};
+  }
+  const hid_t type = H5Aget_type(attribute);
+  std::string order(LongestOrder, '\0');
+  const bool isRead = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
+    H5Tget_size(type) <= LongestOrder && H5Aread(attribute, type, order.data()) >= 0;
+  H5Tclose(type);
+  H5Aclose(attribute);
+  return isRead ? order.c_str() : "";
 }
 }

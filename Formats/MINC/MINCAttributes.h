@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Which attributes of its axes a MINC2 file lacks. libminc gives defaults in their place, and does
-/// not say so.
+/// What libminc does not say of a MINC2 file: which attributes its axes lack, in whose place it
+/// gives defaults, and along which axes the limits of the image are, which it takes for the first.
 #ifndef BrainShift_MINCAttributes_h
 #define BrainShift_MINCAttributes_h
 
@@ -16,6 +16,12 @@ namespace brainshift
  */
 std::vector<std::string> missingAttributes(
   const std::string& fileName, const std::string& axis, const std::vector<std::string>& attributes);
+
+/**
+ * The attribute dimorder of "image" or of a limit such as "image-max": names of axes, such as
+ * "time,zspace", the slowest first. Empty without one.
+ */
+std::string orderOfMINC(const std::string& fileName, const std::string& array);
 }
 
 #endif

@@ -132,8 +132,24 @@ void axesOf(mihandle_t volume, std::vector<MINCAxis>& axes)
   }
 }
 
+// libminc takes the axes of image-min and image-max for the first ones of the image.
+void requireLimits(const std::string& fileName)
+{
+  const std::string image = orderOfMINC(fileName, "image");
+  for (const char* name : { "image-min", "image-max" })
+  {
+    const std::string limit = orderOfMINC(fileName, name);
+    if ((image + ',').rfind(limit.empty() ? limit : limit + ',', 0) != 0)
+    {
+      throw Problem(joined("has an ", name, " along ", shownWords(limit),
+        ", which must be the first axes of its image, ", shownWords(image)));
+    }
+  }
+}
+
 // The type that voxels are handed out in, and whether libminc scales them.
-void readType(mihandle_t volume, VolumeHeader& header, bool& areRealValues)
+void readType(
+  mihandle_t volume, const std::string& fileName, VolumeHeader& header, bool& areRealValues)
 {
   mitype_t type = MI_TYPE_UNKNOWN;
   miclass_t kind = MI_CLASS_REAL;
@@ -149,6 +165,10 @@ void readType(mihandle_t volume, VolumeHeader& header, bool& areRealValues)
       std::to_string(kind) + "; BrainShift reads whole and real numbers");
   }
   areRealValues = kind == MI_CLASS_REAL;
+  if (areRealValues && type != MI_TYPE_FLOAT && type != MI_TYPE_DOUBLE)
+  {
+    requireLimits(fileName);
+  }
   // float32 holds all digits of up to 3 bytes.
   const bool isWide = type == MI_TYPE_DOUBLE || type == MI_TYPE_INT || type == MI_TYPE_UINT;
   header.storedType = !areRealValues ? known->second : isWide ? VTK_DOUBLE : VTK_FLOAT;
@@ -264,7 +284,7 @@ void MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   }
   axesOf(volume.get(), this->Axes);
   noteMissing(fileName, this->Axes, header.warnings);
-  readType(volume.get(), header, this->AreRealValues);
+  readType(volume.get(), fileName, header, this->AreRealValues);
   placeMINC(this->Axes, header);
   if (header.dimensions == glm::ivec3(1))
   {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that MINC2 volumes lie where nibabel puts them, in 48 orders of axes and tilted, that
 # slices are rescaled as nibabel rescales them, and that time, labels and errors are told.
+import h5py
 import minc_files
 import nibabel
 import numpy
@@ -47,6 +48,42 @@ def test_slices_are_rescaled():
         rtol, atol = (1e-9, 1e-6) if is_wide else (1e-5, 1e-4)
         assert numpy.allclose(shown, known, rtol=rtol, atol=atol), (kind, shown, known)
         simple.Delete(source)
+
+
+def with_limits(name, limits, along):
+    """Gives a file image-min and image-max of these numbers along these axes."""
+    with h5py.File(name, "r+") as file:
+        image = file["minc-2.0/image/0"]
+        for limit, numbers in zip(("image-min", "image-max"), limits):
+            kept = dict(image[limit].attrs)
+            del image[limit]
+            made = image.create_dataset(limit, data=numbers)
+            made.attrs.update({**kept, "dimorder": numpy.bytes_(along)})
+
+
+def test_slices_of_each_time_are_rescaled():
+    series = numpy.stack([volume_files.numbered(SHAPE, "int16") * 100 - 2000 * i for i in range(2)])
+    shares = (series + 32768.0) / 65535.0
+    random = numpy.random.default_rng(1)
+    for along, sides in (("time,xspace", (2, 4)), ("time", (2,)), ("", ())):
+        name = minc_files.write(scratch("times.mnc"), series, numpy.eye(4), times=(0.0, 1.0),
+                                slice_ranges=[(0.0, 1.0)])
+        low = random.uniform(-10.0, 10.0, sides)
+        high = low + random.uniform(1.0, 50.0, sides)
+        with_limits(name, (low, high), along)
+        low, high = (numpy.reshape(limit, sides + (1,) * (4 - len(sides))) for limit in (low, high))
+        known = low + shares * (high - low)
+        source = opened(name, READER)
+        for time in (1.0, 0.0):
+            source.UpdatePipeline(time)
+            shown = voxels(source).transpose(2, 1, 0)
+            assert numpy.allclose(shown, known[int(time)], atol=1e-3), (along, time)
+        simple.Delete(source)
+    for along, sides in (("xspace", (4,)), ("xspace,time", (2, 4))):
+        with_limits(name, (numpy.zeros(sides), numpy.ones(sides)), along)
+        with messages() as said:
+            assert output(simple.MINCVolumeReader(FileName=name)).GetNumberOfPoints() == 0
+        assert f"has an image-min along {along}, which must be the first axes" in said.text
 
 
 def test_types_of_whole_numbers_stay():
