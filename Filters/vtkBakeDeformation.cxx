@@ -90,6 +90,7 @@ void describe(vtkImageData* input, vtkImageData* output)
 {
   output->CopyStructure(input);
   nameWorldAxes(output, worldAxesOf(input));
+  nameTemplate(output, templateOf(input));
   attachLabels(output, attachedLabels(input));
   for (const char* name : { "Unit", "SmallIsBright" }) // of the values, for writers
   {

@@ -123,7 +123,7 @@ int vtkCompareVolumes::RequestData(
     { { this->Internal->Voxels.as(ReferenceVoxelsName, scalars), movedRigidly(grid, motion) },
       cavity, static_cast<ReferenceShow>(this->Show), isLabelMap(image), {} });
   warnAnew(this,
-    wordsOnSides({ "the volume", worldAxesOf(output) }, { "the reference", worldAxesOf(image) }),
+    wordsOnSides(namedAxesOf("the volume", output), namedAxesOf("the reference", image)),
     this->Internal->Warning);
   return 1;
 }

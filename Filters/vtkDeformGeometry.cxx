@@ -170,7 +170,7 @@ int vtkDeformGeometry::RequestData(
   const DirectedMap map = directedMapOf(
     vtkDataObject::GetData(inputs[1]), static_cast<brainshift::Direction>(this->Direction));
   warnAnew(this,
-    wordsOnSidesOf({ "the geometry", worldAxesOf(input) }, vtkDataObject::GetData(inputs[1])),
+    wordsOnSidesOf(namedAxesOf("the geometry", input), vtkDataObject::GetData(inputs[1])),
     this->Warned);
   output->ShallowCopy(input);
   if (input->GetPoints() && !deform(this, map, input, output))

@@ -27,7 +27,7 @@ void addWordsOnSides(
   std::string& words, const char* noun, vtkImageData* guest, vtkDataObject* volume)
 {
   const std::string added =
-    guest ? wordsOnSidesOf({ noun, worldAxesOf(guest) }, volume) : std::string();
+    guest ? wordsOnSidesOf(namedAxesOf(noun, guest), volume) : std::string();
   words += (words.empty() || added.empty() ? "" : ". ") + added;
 }
 }

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -30,7 +31,8 @@ constexpr const char* Scanner = "NIFTI_XFORM_SCANNER_ANAT";
 constexpr const char* Aligned = "NIFTI_XFORM_ALIGNED_ANAT";
 constexpr const char* Unknown = "NIFTI_XFORM_UNKNOWN";
 // In which points stay where no matrix leads on.
-const std::string NamedSpaces[] = { Aligned, "NIFTI_XFORM_TALAIRACH", "NIFTI_XFORM_MNI_152" };
+const std::map<std::string, Template> NamedSpaces{ { Aligned, Template::None },
+  { "NIFTI_XFORM_TALAIRACH", Template::Talairach }, { "NIFTI_XFORM_MNI_152", Template::MNI152 } };
 
 template <typename T>
 T numberIn(const GIFTIArray& array, std::size_t index)
@@ -157,7 +159,9 @@ void findPlace(const GIFTIFile& file, const GIFTIArray& points, Surface& surface
   }
   else if (!from.empty() && from != Unknown)
   {
-    if (std::find(std::begin(NamedSpaces), std::end(NamedSpaces), from) == std::end(NamedSpaces))
+    const auto named = NamedSpaces.find(from);
+    surface.space = named == NamedSpaces.end() ? Template::None : named->second;
+    if (named == NamedSpaces.end())
     {
       surface.notes.push_back("names the space " + shownWords(from) +
         " of its points, which GIFTI does not define; they are shown as they are");

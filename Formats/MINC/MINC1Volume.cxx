@@ -183,6 +183,7 @@ MINCAxis axisOf(int file, int dimension, std::vector<std::string>& warnings)
     return axis;
   }
   axis.units = textOf(file, *variable, "units");
+  axis.spaceType = textOf(file, *variable, "spacetype");
   axis.isEven = textOf(file, *variable, "spacing").rfind("irregular", 0) != 0;
   if (isSpace && !axis.isEven)
   {

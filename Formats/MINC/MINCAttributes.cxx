@@ -56,23 +56,24 @@ std::vector<std::string> missingAttributes(
   return missing;
 }
 
-std::string orderOfMINC(const std::string& fileName, const std::string& array)
+std::string wordInMINC(
+  const std::string& fileName, const std::string& object, const std::string& name)
 {
-  constexpr std::size_t LongestOrder = 1024;
+  constexpr std::size_t LongestWord = 1024;
   const QuietFile file(fileName);
-  const std::string path = "/minc-2.0/image/0/" + array;
+  const std::string path = "/minc-2.0/" + object;
   const hid_t attribute =
-    H5Aopen_by_name(file.get(), path.c_str(), "dimorder", H5P_DEFAULT, H5P_DEFAULT);
+    H5Aopen_by_name(file.get(), path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
   if (attribute < 0)
   {
     return {};
   }
   const hid_t type = H5Aget_type(attribute);
-  std::string order(LongestOrder, '\0');
+  std::string word(LongestWord, '\0');
   const bool isRead = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
-    H5Tget_size(type) <= LongestOrder && H5Aread(attribute, type, order.data()) >= 0;
+    H5Tget_size(type) <= LongestWord && H5Aread(attribute, type, word.data()) >= 0;
   H5Tclose(type);
   H5Aclose(attribute);
-  return isRead ? order.c_str() : "";
+  return isRead ? word.c_str() : "";
 }
 }

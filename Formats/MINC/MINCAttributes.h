@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What libminc does not say of a MINC2 file: which attributes its axes lack, in whose place it
-/// gives defaults, and along which axes the limits of the image are, which it takes for the first.
+/// gives defaults, and words that it has no call for.
 #ifndef BrainShift_MINCAttributes_h
 #define BrainShift_MINCAttributes_h
 
@@ -17,11 +17,9 @@ namespace brainshift
 std::vector<std::string> missingAttributes(
   const std::string& fileName, const std::string& axis, const std::vector<std::string>& attributes);
 
-/**
- * The attribute dimorder of "image" or of a limit such as "image-max": names of axes, such as
- * "time,zspace", the slowest first. Empty without one.
- */
-std::string orderOfMINC(const std::string& fileName, const std::string& array);
+/** Text of an attribute of "dimensions/xspace", "image/0/image" and so on. Empty without one. */
+std::string wordInMINC(
+  const std::string& fileName, const std::string& object, const std::string& attribute);
 }
 
 #endif

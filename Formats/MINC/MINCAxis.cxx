@@ -150,6 +150,10 @@ void placeMINC(std::vector<MINCAxis>& axes, VolumeHeader& header)
       throw Problem(
         "has the dimension " + axis.name + ", which is none of space or time; only one may be");
     }
+    if (axis.spaceType.rfind("talairach", 0) == 0) // stereotaxic: the MNI's templates, too
+    {
+      header.space = Template::Other;
+    }
     if (axis.use == AxisUse::Space && along >= 0)
     {
       placeAlong(along, axis, header);

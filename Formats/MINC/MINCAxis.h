@@ -30,6 +30,7 @@ struct MINCAxis
   std::vector<double> positions; ///< of an uneven axis; empty if the file does not list them
   glm::dvec3 cosines{ 0.0 };     ///< RAS, of an axis of space
   bool isEven = true;
+  std::string spaceType; ///< "native____", "talairach_" or "callosal__"; empty: not said
 };
 
 /**

@@ -135,10 +135,10 @@ void axesOf(mihandle_t volume, std::vector<MINCAxis>& axes)
 // libminc takes the axes of image-min and image-max for the first ones of the image.
 void requireLimits(const std::string& fileName)
 {
-  const std::string image = orderOfMINC(fileName, "image");
+  const std::string image = wordInMINC(fileName, "image/0/image", "dimorder");
   for (const char* name : { "image-min", "image-max" })
   {
-    const std::string limit = orderOfMINC(fileName, name);
+    const std::string limit = wordInMINC(fileName, std::string("image/0/") + name, "dimorder");
     if ((image + ',').rfind(limit.empty() ? limit : limit + ',', 0) != 0)
     {
       throw Problem(joined("has an ", name, " along ", shownWords(limit),
@@ -283,6 +283,10 @@ void MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
     throw Problem("is not MINC2, or is damaged: libminc cannot open it");
   }
   axesOf(volume.get(), this->Axes);
+  for (MINCAxis& axis : this->Axes)
+  {
+    axis.spaceType = wordInMINC(fileName, "dimensions/" + axis.name, "spacetype");
+  }
   noteMissing(fileName, this->Axes, header.warnings);
   readType(volume.get(), fileName, header, this->AreRealValues);
   placeMINC(this->Axes, header);

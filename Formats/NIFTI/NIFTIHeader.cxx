@@ -447,22 +447,26 @@ std::vector<double> timesOf(const NIFTITiming& timing, std::vector<std::string>&
   return evenTimes(timing.volumes, seconds * step, start);
 }
 
+bool sformCounts(const NIFTIPlacement& placement)
+{
+  return placement.sformCode > 0 && !(placement.qformCode > 0 && isZero(placement.sformRows));
+}
+
 glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement, std::vector<std::string>& warnings)
 {
-  const bool hasQform = placement.qformCode > 0;
-  if (placement.sformCode > 0 && hasQform && isZero(placement.sformRows))
-  {
-    warnings.push_back(joined(
-      "has the sform_code ", placement.sformCode, " but an sform of zeros; the qform counts"));
-  }
-  else if (placement.sformCode > 0)
+  if (sformCounts(placement))
   {
     const glm::dmat4 world = worldBySform(placement);
-    if (hasQform)
+    if (placement.qformCode > 0)
     {
       noteOtherPlace(placement, world, warnings);
     }
     return world;
+  }
+  if (placement.sformCode > 0)
+  {
+    warnings.push_back(joined(
+      "has the sform_code ", placement.sformCode, " but an sform of zeros; the qform counts"));
   }
   noteQform(placement, warnings);
   return worldByQform(placement);

@@ -69,11 +69,14 @@ std::optional<double> mmPerNIFTIUnit(int xyztUnits);
  */
 std::vector<double> timesOf(const NIFTITiming& timing, std::vector<std::string>& warnings);
 
+/** Whether the sform counts: not one of zeros beside a qform. */
+bool sformCounts(const NIFTIPlacement& placement);
+
 /**
  * World position (mm, RAS) from a voxel's index in the file: the sform if there is one, else the
  * qform, else pixel sizes along the RAS axes with voxel (0, 0, 0) at the origin. These are methods
- * 3, 2 and 1 of the standard. An sform of zeros does not count beside a qform. `warnings` gets the
- * ends of sentences on numbers that contradict each other or do not count.
+ * 3, 2 and 1 of the standard. `warnings` gets the ends of sentences on numbers that contradict each
+ * other or do not count.
  */
 glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement, std::vector<std::string>& warnings);
 }

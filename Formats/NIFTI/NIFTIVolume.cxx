@@ -182,6 +182,14 @@ glm::dmat4 voxelFromReversedSlices(int slices)
   return voxelFromReversed;
 }
 
+Template templateOf(const NIFTIPlacement& placement)
+{
+  const int code = sformCounts(placement) ? placement.sformCode : placement.qformCode;
+  const bool isTemplate =
+    code >= static_cast<int>(Template::Talairach) && code <= static_cast<int>(Template::Other);
+  return isTemplate ? static_cast<Template>(code) : Template::None;
+}
+
 NIFTITiming timingOf(vtkNIFTIImageHeader* header)
 {
   const vtkTypeInt64 count = header->GetDim(0) >= 4 ? header->GetDim(4) : 1;
@@ -324,6 +332,7 @@ void NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   noteCodes(stored, bytesOfNIFTIVoxel(stored->GetDataType()), header.warnings);
   noteVectors(stored, header.warnings);
   header.worldFromVoxel = worldFromVoxel(placementOf(stored), header.warnings);
+  header.space = templateOf(placementOf(stored));
   const int* extent = this->Voxels->GetDataExtent();
   header.dimensions = glm::ivec3(extent[1] + 1, extent[3] + 1, extent[5] + 1);
   if (this->reversesSlices())

@@ -115,6 +115,7 @@ void setSurface(vtkPolyData* data, const Surface& surface)
   addArrays(data->GetPointData(), surface.numbers);
   attachLabels(data, surface.labels);
   nameWorldAxes(data, surface.knowsWorld ? WorldAxes::RAS : WorldAxes::Unknown);
+  nameTemplate(data, surface.space);
 }
 
 void setTracts(vtkPolyData* data, const Tracts& tracts)

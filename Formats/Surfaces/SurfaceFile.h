@@ -7,6 +7,7 @@
 
 #include "Common/LabelTable.h"
 #include "Common/Problem.h"
+#include "Common/WorldAxes.h"
 #include "Formats/Files/PackedBytes.h"
 
 #include <glm/glm.hpp>
@@ -120,6 +121,7 @@ struct Surface
   std::vector<Label> labels;         ///< names of the values of a map of labels
   glm::dmat4 worldFromStored{ 1.0 }; ///< mm, RAS
   bool knowsWorld = true;            ///< false: the file does not say where it lies
+  Template space = Template::None;   ///< whose space the file says that it is in
   std::vector<std::string> notes;    ///< ends of sentences, after the name of the file
   ///@{
   /** As the content of a file says: that of the points, or of the last file of values. */

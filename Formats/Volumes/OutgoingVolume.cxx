@@ -182,6 +182,7 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   }
   const WorldAxes axes = world == WorldAxes::Unknown ? worldAxesOf(image) : world;
   volume.knowsSides = axes != WorldAxes::Unknown;
+  volume.space = templateOf(image);
   const WorldAxes own = worldAxesOf(image);
   if (own != WorldAxes::Unknown && own != axes)
   {

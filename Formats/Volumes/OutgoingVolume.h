@@ -53,12 +53,13 @@ struct VoxelNumber
 /** What a file gets. */
 struct OutgoingVolume
 {
-  Grid grid;                  ///< mm, RAS; its direction may be a mirrored rotation
-  bool knowsSides = true;     ///< false: RAS is a guess
-  bool isField = false;       ///< its numbers are displacements
-  bool isLabelMap = false;    ///< its numbers are labels
-  bool smallIsBright = false; ///< whether stations show small numbers bright
-  std::string unit;           ///< of its numbers; empty: not known
+  Grid grid;                       ///< mm, RAS; its direction may be a mirrored rotation
+  bool knowsSides = true;          ///< false: RAS is a guess
+  Template space = Template::None; ///< whose space RAS is
+  bool isField = false;            ///< its numbers are displacements
+  bool isLabelMap = false;         ///< its numbers are labels
+  bool smallIsBright = false;      ///< whether stations show small numbers bright
+  std::string unit;                ///< of its numbers; empty: not known
   VoxelNumber type;
   vtkSmartPointer<vtkDataArray> numbers; ///< x fastest, components side by side in memory
 

@@ -7,6 +7,7 @@
 
 #include "Common/LabelTable.h"
 #include "Common/Problem.h"
+#include "Common/WorldAxes.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -49,11 +50,12 @@ struct VolumeHeader
   /// Whether the file says where the sides of the patient are. Otherwise the axes of the voxels
   /// stand for right, anterior and superior, which may be wrong.
   bool knowsSides = true;
-  std::vector<std::string> warnings;       ///< ends of sentences, after the name of the file
-  std::string unit;                        ///< of the numbers, such as mm2/s; empty: not said
-  bool smallIsBright = false;              ///< whether stations show small numbers bright
-  std::vector<Label> labels;               ///< names of values, where the file names them
-  bool isLabelMap = false;                 ///< whether the file says that its values are labels
+  Template space = Template::None;   ///< where the file says that its RAS is that of a template
+  std::vector<std::string> warnings; ///< ends of sentences, after the name of the file
+  std::string unit;                  ///< of the numbers, such as mm2/s; empty: not said
+  bool smallIsBright = false;        ///< whether stations show small numbers bright
+  std::vector<Label> labels;         ///< names of values, where the file names them
+  bool isLabelMap = false;           ///< whether the file says that its values are labels
   std::vector<std::string> componentNames; ///< as many as there are components, or none
   std::string note; ///< what was chosen of the file, and why: a sentence. Empty: nothing to say
   std::vector<vtkSmartPointer<vtkAbstractArray>> attached; ///< more field data of each volume

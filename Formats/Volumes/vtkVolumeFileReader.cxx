@@ -112,6 +112,7 @@ void attachFacts(
   brainshift::markLabelMap(volume, header.isLabelMap);
   brainshift::nameWorldAxes(
     volume, header.knowsSides ? brainshift::WorldAxes::RAS : brainshift::WorldAxes::Unknown);
+  brainshift::nameTemplate(volume, header.space);
 }
 
 void announceTimes(vtkInformation* output, const std::vector<double>& times)

@@ -123,8 +123,10 @@ void setPlace(const OutgoingVolume& volume, NIFTIBytesOfHeader& header)
   header.set(264, static_cast<float>(turn.z));
   // Without a code most readers would put a volume that needs its transform somewhere else.
   const std::int16_t atLeast = needsTransform(grid) ? AlignedAnatomy : UnknownPlace;
-  header.set(252, volume.knowsSides ? ScannerAnatomy : UnknownPlace);
-  header.set(254, volume.knowsSides ? ScannerAnatomy : atLeast);
+  const std::int16_t known =
+    volume.space == Template::None ? ScannerAnatomy : static_cast<std::int16_t>(volume.space);
+  header.set(252, volume.knowsSides ? known : UnknownPlace);
+  header.set(254, volume.knowsSides ? known : atLeast);
 }
 
 std::string metaImageType(const VoxelNumber& type)

@@ -167,6 +167,13 @@ def test_units_have_their_size():
         assert abs(output(source).GetSpacing()[0] / (2.5 * mm) - 1.0) < 1e-9, units
 
 
+def test_a_template_is_named():
+    for word, name in ((b"native____", None), (b"talairach_", "not named")):
+        source, said = said_of(write("template", change=setting("xspace", spacetype=word)))
+        found = output(source).GetFieldData().GetAbstractArray("Template")
+        assert not said and (found.GetValue(0) if found else None) == name, (said, word)
+
+
 def test_cosines_count_as_directions_alone():
     for length, said_words in ((1.0009, False), (1.1, True)):
         cosines = length * numpy.array(COSINES["xspace"])

@@ -43,6 +43,7 @@ def changes():
         "step": [(AXIS, "step", 2.0), (TIME, "step", 3.0), (TIME, "step", -1.0)],
         "direction_cosines": [(AXIS, "direction_cosines", (0.8, 0.6, 0.0))],
         "units": [(AXIS, "units", "cm"), (TIME, "units", "ms")],
+        "spacetype": [(AXIS, "spacetype", "talairach_")],
         "spacing": [(TIME, "spacing", "irregular")],
         "alignment": [(AXIS, "alignment", "start_")],
         "width": [(AXIS, "width", 3.0)], "comments": [(AXIS, "comments", "none")],
