@@ -15,6 +15,7 @@ constexpr const char* RASName = "RAS";
 constexpr const char* LPSName = "LPS";
 
 constexpr const char* TemplateArrayName = "Template";
+constexpr const char* SlicerArrayName = "SPACE"; // in .vtp files
 
 struct TemplateName
 {
@@ -29,6 +30,11 @@ constexpr TemplateName TemplateNames[] = { { Template::None, "" },
 const char* nameOf(WorldAxes axes, const char* unknown)
 {
   return axes == WorldAxes::RAS ? RASName : axes == WorldAxes::LPS ? LPSName : unknown;
+}
+
+WorldAxes axesNamed(const std::string& name)
+{
+  return name == RASName ? WorldAxes::RAS : name == LPSName ? WorldAxes::LPS : WorldAxes::Unknown;
 }
 
 const char* nameOf(Template space)
@@ -66,12 +72,7 @@ void nameWorldAxes(vtkDataObject* volume, WorldAxes axes)
 
 WorldAxes worldAxesOf(vtkDataObject* volume)
 {
-  const std::string name = fieldWordOf(volume, ArrayName);
-  if (name == RASName)
-  {
-    return WorldAxes::RAS;
-  }
-  return name == LPSName ? WorldAxes::LPS : WorldAxes::Unknown;
+  return axesNamed(fieldWordOf(volume, ArrayName));
 }
 
 void nameTemplate(vtkDataObject* data, Template space)
@@ -89,7 +90,11 @@ Template templateOf(vtkDataObject* data)
 
 NamedAxes namedAxesOf(const std::string& noun, vtkDataObject* data)
 {
-  return { noun, worldAxesOf(data), templateOf(data) };
+  const WorldAxes own = worldAxesOf(data);
+  const WorldAxes ofSlicer = axesNamed(fieldWordOf(data, SlicerArrayName));
+  const bool isOfSlicer = own == WorldAxes::Unknown && ofSlicer != WorldAxes::Unknown;
+  return { isOfSlicer ? noun + " (by its field array SPACE)" : noun, isOfSlicer ? ofSlicer : own,
+    templateOf(data) };
 }
 
 std::string wordsOnSides(const NamedAxes& one, const NamedAxes& other)

@@ -55,7 +55,10 @@ struct NamedAxes
   Template space = Template::None;
 };
 
-/** What a thing says of its axes and of a template. */
+/**
+ * What a thing says of its axes and of a template. Without WorldAxes, the field array SPACE of
+ * models of 3D Slicer counts. It is for words only: whoever turns a model around leaves it there.
+ */
 VTKBRAINSHIFTCOMMON_EXPORT NamedAxes namedAxesOf(const std::string& noun, vtkDataObject* data);
 
 /**

@@ -390,7 +390,7 @@ int vtkTraceDistance::RequestData(
   vtkDataObject* output = vtkDataObject::GetData(outputs);
   warnAnew(this,
     wordsOnSidesOf(
-      { "the traced points", worldAxesOf(input) }, vtkDataObject::GetData(inputs[DeformationPort])),
+      namedAxesOf("the traced points", input), vtkDataObject::GetData(inputs[DeformationPort])),
     state.Warned);
   std::vector<double> distances;
   bool going = true;

@@ -249,7 +249,7 @@ class _Opening:
             raise SceneProblem(f"is no surface but {kind}; save its surface as a model in Slicer")
         if _axes_of_model(reader, path, end, storage) == "LPS":
             reader = simple.Transform(registrationName=free_name(self.rest_name(node, links)),
-                                      Input=reader)
+                                      Input=_without_space(reader, node.name))
             reader.Transform.Rotate = [0.0, 0.0, 180.0]  # from LPS to RAS
         else:
             simple.RenameSource(free_name(self.rest_name(node, links)), reader)
@@ -366,13 +366,13 @@ def _put(held, name, thing):
 
 
 def _delete(source):
-    """Deletes a source, and the reader before it."""
+    """Deletes a source, and those before it."""
     from paraview import simple
 
-    reader = source.Input if source.SMProxy.GetProperty("Input") else None
+    before = source.Input if source.SMProxy.GetProperty("Input") else None
     simple.Delete(source)
-    if reader is not None:
-        simple.Delete(reader)
+    if before is not None:
+        _delete(before)
 
 
 def _largest_miss(source, back):
@@ -402,6 +402,19 @@ def _is_setting(node):
     """Whether a node holds nothing that a picture of the patient lacks without it."""
     return (node.kind in _SETTINGS or node.kind.endswith(("Storage", "Display", "DisplayNode"))
             or node.attributes.get("hideFromEditors") == "true" and not node.reference("storage"))
+
+
+def _without_space(reader, name):
+    """A model that no longer says the axes of its file, before it is turned around."""
+    from paraview import simple
+
+    fields = reader.GetDataInformation().GetFieldDataInformation()
+    if not fields.GetArrayInformation("SPACE"):
+        return reader
+    names = [fields.GetArrayInformation(i).GetName() for i in range(fields.GetNumberOfArrays())]
+    return simple.PassArrays(registrationName=free_name(f"{name} in LPS"), Input=reader,
+                             FieldDataArrays=[each for each in names if each != "SPACE"] or
+                             ["none of them"])  # an empty list would let all pass
 
 
 def _axes_of_model(reader, path, end, storage):

@@ -370,9 +370,8 @@ def test_models_in_both_axes():
     write_said_vtp(output(lps), scene.path("said.vtp"))
     scene.linear("Placed", TURN)
     for name, axes in (("lps.vtk", "LPS"), ("ras.vtk", "RAS"), ("lps.vtp", "LPS"),
-                       ("said.vtp", "RAS"),
-                       ("lps.stl", "LPS"), ("lps.ply", "LPS"), ("said.vtk", "RAS"),
-                       ("lps.obj", "RAS")):
+                       ("said.vtp", "RAS"), ("lps.stl", "LPS"), ("lps.ply", "LPS"),
+                       ("said.vtk", "RAS"), ("lps.obj", "RAS")):
         scene.stored("Model", name, name, above="Placed", storage={"coordinateSystem": axes})
     scene.stored("Model", "old.vtk", "ras.vtk", old=True)
     scene.stored("FiberBundle", "tracts", "lps.vtp", storage={"coordinateSystem": "LPS"})
@@ -380,6 +379,7 @@ def test_models_in_both_axes():
     assert not found.notes, found.notes
     for name in ("lps.vtk", "ras.vtk", "lps.vtp", "lps.ply", "said.vtk", "said.vtp"):
         assert_there(found.models[name], of_rows(TURN, right))
+        assert not output(found.models[name]).GetFieldData().HasArray("SPACE"), "in RAS now"
     assert_there(found.models["old.vtk"], right)
     assert_there(found.models["tracts"], right)
     assert_there(found.models["lps.obj"],

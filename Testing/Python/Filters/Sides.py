@@ -13,6 +13,9 @@ from brainshift_testing import (assert_says, ball, load_plugin, messages, run_te
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import servermanager, simple  # noqa: E402
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray  # noqa: E402
+from vtkmodules.vtkCommonDataModel import vtkPolyData  # noqa: E402
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter  # noqa: E402
 
 SIDES = "left and right may be exchanged between them"
 KNOWN = numpy.diag([2.0, 2.0, 2.0, 1.0])
@@ -131,6 +134,37 @@ def test_a_surface_and_traces_of_known_sides():
         assert (SIDES in said_by(moved.UpdatePipeline)) != known
         distance = simple.TraceDistance(Input=points, Deformation=bent, Threshold=0.5)
         assert (SIDES in said_by(distance.UpdatePipeline)) != known
+
+
+def model(space):
+    """A triangle in .vtp with the word by which 3D Slicer names its axes, opened."""
+    word = vtkStringArray()
+    word.SetName("SPACE")
+    word.InsertNextValue(space)
+    triangle = vtkPolyData()
+    triangle.SetPoints(vtkPoints())
+    triangle.AllocateExact(1, 3)
+    for point in ((9, 9, 9), (20, 9, 9), (9, 20, 9)):
+        triangle.GetPoints().InsertNextPoint(point)
+    triangle.InsertNextCell(5, 3, (0, 1, 2))
+    triangle.GetFieldData().AddArray(word)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(scratch(f"{space}.vtp"))
+    writer.SetInputData(triangle)
+    writer.Write()
+    return simple.XMLPolyDataReader(FileName=writer.GetFileName())
+
+
+def test_a_model_of_slicer_in_other_axes():
+    bent = simple.FreeFormDeformation(Input=head(True))
+    bent.UpdatePipeline()
+    for space in ("RAS", "LPS"):
+        source = model(space)
+        for step in (simple.DeformGeometry(Input=source, Deformation=bent),
+                     simple.TraceDistance(Input=source, Deformation=bent)):
+            text = said_by(step.UpdatePipeline)
+            assert (SIDES in text) == (space == "LPS"), (space, text)
+            assert ("by its field array SPACE) are LPS" in text) == (space == "LPS"), text
 
 
 def test_a_field_of_unknown_sides_says_so_and_is_known_again():
