@@ -5,6 +5,7 @@ of pvbatch, this module writes the answers to some questions into the file that 
 import contextlib
 import gzip
 import os
+import struct
 import sys
 
 import numpy
@@ -262,11 +263,11 @@ def answer_halo(found):
     simple.Delete(view)
 
 
-# More than 256 MiB, which gzip makes small.
-LARGE = """NRRD0004
+LARGE = 512, 512, 513  # numbers of 16 bit: more than 256 MiB, which gzip makes small
+NRRD_HEADER = """NRRD0004
 type: uint16
 dimension: 3
-sizes: 512 512 513
+sizes: {} {} {}
 endian: little
 space: RAS
 space directions: (0.1,0,0) (0,0.1,0) (0,0,0.1)
@@ -276,15 +277,30 @@ encoding: gzip
 """
 
 
+def nifti_header():
+    header = bytearray(352)
+    struct.pack_into("<i36x8h", header, 0, 348, 3, *LARGE, 1, 1, 1, 1)
+    struct.pack_into("<2h2x4f16xf", header, 70, 512, 16, 1, 0.1, 0.1, 0.1, 352)
+    struct.pack_into("<h", header, 252, 1)  # the qform is the scanner's, without a turn
+    header[344:348] = b"n+1\0"
+    return bytes(header)
+
+
 def answer_packed(found, folder):
-    """A large file whose parts cannot be found."""
-    name = os.path.join(folder, "large.nrrd")
-    with open(name, "wb") as file:
-        file.write(LARGE.encode() + gzip.compress(bytes(2 * 512 * 512 * 513), 1))
-    with noting(found, "packed"):
-        reader = simple.NRRDVolumeReader(FileName=name)
-        reader.UpdatePipeline()
-    found["packed points"] = numpy.array([reader.GetDataInformation().GetNumberOfPoints()])
+    """Large files whose parts cannot be found."""
+    numbers = bytes(2 * int(numpy.prod(LARGE)))
+    for name, content, reader in (
+            ("large.nrrd", NRRD_HEADER.format(*LARGE).encode() + gzip.compress(numbers, 1),
+             simple.NRRDVolumeReader),
+            ("large.nii.gz", gzip.compress(nifti_header() + numbers, 1),
+             simple.NIFTIVolumeReader)):
+        path = os.path.join(folder, name)
+        with open(path, "wb") as file:
+            file.write(content)
+        source = reader(FileName=path)
+        with noting(found, name):
+            source.UpdatePipeline()
+        found[name + " points"] = numpy.array([source.GetDataInformation().GetNumberOfPoints()])
 
 
 def answer_card(found):
