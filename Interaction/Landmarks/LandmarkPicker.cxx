@@ -309,7 +309,7 @@ bool isZero(vtkSMProxy* comparison, const char* property)
 // it, as Align does: a landmark that is measured there lacks that motion.
 bool showsBeforeAlign(vtkSMProxy* atRest, pqDataRepresentation* display)
 {
-  vtkSMProxy* shown = display->getInput()->getProxy();
+  vtkSMProxy* shown = vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy();
   const QList<pqPipelineSource*> sources = serverManagerModel()->findItems<pqPipelineSource*>();
   return std::any_of(sources.begin(), sources.end(), [&](pqPipelineSource* source) {
     vtkSMProxy* proxy = source->getProxy();
