@@ -57,9 +57,9 @@ def held(head):
     """What the display of this rank holds, and how often its voxels were sent to the card."""
     import brainshift
     head.draw()
-    gpu = brainshift.gpu(head.display)
+    gpu, counters = brainshift.gpu(head.display), brainshift.counters(head.display)
     return {"scalars": gpu["gpuScalarBytes"], "coarser": gpu["gpuVoxelsPerTexel"],
-            "uploads": brainshift.counters(head.display)["volumeUploads"]}
+            "memory": counters["voxelBytes"], "uploads": counters["volumeUploads"]}
 
 
 def seconds_of_frames(head):
@@ -150,13 +150,15 @@ def runs(file, ranks, top, size):
     return found
 
 
-def tell(report, voxels, whole, found):
-    """What the rank has that holds, draws or waits most. `whole`: bytes of all voxels on a card."""
+def tell(report, voxels, number, whole, found):
+    """What the rank has that holds, draws or waits most. `number`: bytes of a voxel of the file;
+    `whole`: bytes of all voxels on a card."""
     ranks = len(found)
     most = {name: max(one[name]["scalars"] for one in found) / 2 ** 20
             for name in ("begin", "within", "beyond")}
     again = {name: sum(one[name]["uploads"] > one[before]["uploads"] for one in found)
              for name, before in (("within", "begin"), ("beyond", "within"))}
+    memory = max(one["begin"]["memory"] for one in found)
     more = sum(max(0, one["beyond"]["scalars"] - one["within"]["scalars"])
                for one in found) * voxels / whole
     draws = {name: 1000 * max(one[name][0] for one in found) for name in ("opaque", "translucent")}
@@ -168,14 +170,15 @@ def tell(report, voxels, whole, found):
     drawn = f", drawn with one voxel for {coarser}," if coarser > 1 else ""
     report.fact(
         f"ranks: {ranks}. The largest{drawn} has {most['begin']:.0f} MiB of voxels on its card "
-        f"({100 * most['begin'] * 2 ** 20 / whole:.0f} %), {resident:.0f} MiB resident at most; a "
+        f"({100 * most['begin'] * 2 ** 20 / whole:.0f} %), {memory / 2 ** 20:.0f} MiB in memory "
+        f"({100 * memory / (number * voxels):.0f} %), {resident:.0f} MiB resident at most; a "
         f"stroke of {WITHIN:.0f} mm sends voxels to {again['within']}, one of {BEYOND:.0f} mm to "
         f"{again['beyond']}, which then have {more / 1e6:.1f} million more after {exchange:.2f} s; "
         f"reading its part takes {reading:.2f} s; drawing "
         f"{draws['opaque']:.0f} ms (opaque), {draws['translucent']:.0f} ms (translucent); all else "
         f"{rest:.0f} ms",
-        ranks=ranks, held=most, again=again, more=more, draws=draws, rest=rest, resident=resident,
-        exchange=exchange, reading=reading)
+        ranks=ranks, held=most, memory=memory, again=again, more=more, draws=draws, rest=rest,
+        resident=resident, exchange=exchange, reading=reading)
 
 
 def measure_ranks(options):
@@ -204,7 +207,7 @@ def measure_ranks(options):
         found = runs(file, ranks, top, size)
         one = found[0]["begin"]
         whole = whole or one["scalars"] * one["coarser"]
-        tell(report, int(numpy.prod(size)), whole, found)
+        tell(report, int(numpy.prod(size)), number, whole, found)
     report.write(options.output)
     shutil.rmtree(folder)
 

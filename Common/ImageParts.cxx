@@ -8,6 +8,7 @@
 #include "vtkDataArray.h"
 #include "vtkExecutive.h"
 #include "vtkExtentTranslator.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationExecutivePortKey.h"
 #include "vtkInformationIntegerKey.h"
@@ -69,37 +70,6 @@ double bytesOf(vtkDataSetAttributes* arrays)
   }
   return bytes;
 }
-}
-
-bool holds(const Extent& extent, const Extent& other)
-{
-  bool all = true;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    all = all && extent[2 * axis] <= other[2 * axis] && extent[2 * axis + 1] >= other[2 * axis + 1];
-  }
-  return all;
-}
-
-Extent around(const Extent& a, const Extent& b)
-{
-  Extent both = a;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    both[2 * axis] = std::min(a[2 * axis], b[2 * axis]);
-    both[2 * axis + 1] = std::max(a[2 * axis + 1], b[2 * axis + 1]);
-  }
-  return both;
-}
-
-double pointsIn(const Extent& extent)
-{
-  double points = 1.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    points *= std::max(0.0, extent[2 * axis + 1] - extent[2 * axis] + 1.0);
-  }
-  return points;
 }
 
 Extent extentOf(vtkImageData* image)

@@ -5,25 +5,17 @@
 #ifndef BrainShift_ImageParts_h
 #define BrainShift_ImageParts_h
 
-#include "Common/SharedVolume.h"
+#include "Common/Extent.h"
 #include "vtkBrainShiftCommonModule.h" // for the export macro
 
 #include <functional>
 #include <vector>
 
+class vtkImageData;
 class vtkInformation;
 
 namespace brainshift
 {
-/** Whether an extent holds all of another. */
-VTKBRAINSHIFTCOMMON_EXPORT bool holds(const Extent& extent, const Extent& other);
-
-/** The smallest extent that holds two, of which neither is empty. */
-VTKBRAINSHIFTCOMMON_EXPORT Extent around(const Extent& a, const Extent& b);
-
-/** The points in an extent; 0 if it is empty. */
-VTKBRAINSHIFTCOMMON_EXPORT double pointsIn(const Extent& extent);
-
 /** The extent of an image. */
 VTKBRAINSHIFTCOMMON_EXPORT Extent extentOf(vtkImageData* image);
 

@@ -52,6 +52,13 @@ std::string textOf(vtkMultiProcessController* ranks, const std::string& here, in
   return text;
 }
 
+std::vector<Box> boxesOfAll(vtkMultiProcessController* ranks, const Box& here)
+{
+  std::vector<Box> all(ranks->GetNumberOfProcesses());
+  ranks->AllGather(here.data(), all[0].data(), 6);
+  return all;
+}
+
 Box boxOfAll(vtkMultiProcessController* ranks, const Box& here)
 {
   Box own = here; // with the least negated, so that one maximum finds all

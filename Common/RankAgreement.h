@@ -11,6 +11,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 class vtkMultiProcessController;
 
@@ -61,6 +62,10 @@ VTKBRAINSHIFTCOMMON_EXPORT std::string saidByRank(
 /** A text of one rank, on all ranks. `here`: any text on the other ranks. */
 VTKBRAINSHIFTCOMMON_EXPORT std::string textOf(
   vtkMultiProcessController* ranks, const std::string& here, int rank);
+
+/** The boxes of all ranks, by rank. */
+VTKBRAINSHIFTCOMMON_EXPORT std::vector<Box> boxesOfAll(
+  vtkMultiProcessController* ranks, const Box& here);
 
 /** The smallest box that holds the boxes of all ranks. */
 VTKBRAINSHIFTCOMMON_EXPORT Box boxOfAll(vtkMultiProcessController* ranks, const Box& here);

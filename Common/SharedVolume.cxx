@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/SharedVolume.h"
 
+#include "Common/Extent.h"
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/PiecedArray.h"
 #include "Common/RankAgreement.h"
 
 #include "vtkCellData.h"
@@ -28,25 +30,6 @@ namespace
 {
 constexpr int Tag = 20713; // of our messages, which none of ParaView's may answer
 
-// Cells along an axis of one point count as one.
-struct IndexRange
-{
-  int first[3];
-  int count[3];
-};
-
-IndexRange rangeOf(const int extent[6], bool cells)
-{
-  IndexRange box{};
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int points = extent[2 * axis + 1] - extent[2 * axis] + 1;
-    box.first[axis] = extent[2 * axis];
-    box.count[axis] = cells && points > 1 ? points - 1 : std::max(points, 0);
-  }
-  return box;
-}
-
 // Arrays that are sent: numbers with a name. Ghosts mark what another rank has.
 std::vector<vtkDataArray*> sentOf(vtkDataSetAttributes* attributes)
 {
@@ -64,7 +47,7 @@ std::vector<vtkDataArray*> sentOf(vtkDataSetAttributes* attributes)
   return arrays;
 }
 
-Extent extentOf(vtkImageData* part)
+Extent heldBy(vtkImageData* part)
 {
   Extent extent{ 0, -1, 0, -1, 0, -1 };
   if (part && part->GetNumberOfPoints() > 0)
@@ -74,55 +57,64 @@ Extent extentOf(vtkImageData* part)
   return extent;
 }
 
-bool isEmpty(const Extent& extent)
+// The points or cells of an extent of points, as an extent that counts these: cells by their first
+// point. Cells along an axis of one point count as one.
+Extent countedOf(const Extent& points, bool cells)
 {
-  return extent[1] < extent[0] || extent[3] < extent[2] || extent[5] < extent[4];
-}
-
-Extent common(const Extent& a, const Extent& b)
-{
-  Extent both{};
+  Extent counted = points;
   for (int axis = 0; axis < 3; ++axis)
   {
-    both[2 * axis] = std::max(a[2 * axis], b[2 * axis]);
-    both[2 * axis + 1] = std::min(a[2 * axis + 1], b[2 * axis + 1]);
+    counted[2 * axis + 1] -= cells && points[2 * axis + 1] > points[2 * axis] ? 1 : 0;
   }
-  return both;
+  return counted;
 }
 
-// Copies values of one extent from an array of an extent to an array of another.
-struct Copy
+vtkIdType sizeOf(const Extent& counted)
 {
-  vtkDataArray* from;
-  Extent fromExtent;
-  vtkDataArray* to;
-  Extent toExtent;
+  return static_cast<vtkIdType>(pointsIn(counted));
+}
 
-  void run(const Extent& extent, bool cells) const
+// What an extent has beyond another one: up to six boxes, in the same order on all ranks.
+std::vector<Extent> beyond(const Extent& extent, const Extent& other)
+{
+  Extent inner = common(extent, other);
+  if (isEmpty(extent) || isEmpty(inner))
   {
-    const IndexRange copied = rangeOf(extent.data(), cells);
-    const IndexRange source = rangeOf(this->fromExtent.data(), cells);
-    const IndexRange target = rangeOf(this->toExtent.data(), cells);
-    const auto startIn = [&](const IndexRange& range, int j, int k) {
-      const vtkIdType y = copied.first[1] + j - range.first[1];
-      const vtkIdType z = copied.first[2] + k - range.first[2];
-      return (z * range.count[1] + y) * range.count[0] + copied.first[0] - range.first[0];
-    };
-    for (int k = 0; k < copied.count[2]; ++k)
+    return isEmpty(extent) ? std::vector<Extent>() : std::vector<Extent>{ extent };
+  }
+  std::vector<Extent> boxes;
+  boxes.reserve(6);
+  Extent left = extent; // what no box has yet
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    Extent below = left;
+    Extent above = left;
+    below[2 * axis + 1] = inner[2 * axis] - 1;
+    above[2 * axis] = inner[2 * axis + 1] + 1;
+    boxes.push_back(below);
+    boxes.push_back(above);
+    left[2 * axis] = inner[2 * axis];
+    left[2 * axis + 1] = inner[2 * axis + 1];
+  }
+  boxes.erase(std::remove_if(boxes.begin(), boxes.end(), isEmpty), boxes.end());
+  return boxes;
+}
+
+// Copies values of a box from an array of an extent to an array of another. Extents count values.
+void copyBox(const Extent& box, const ArrayPiece& from, const ArrayPiece& to)
+{
+  const auto at = [](const Extent& e, int x, int y, int z) {
+    const vtkIdType row = static_cast<vtkIdType>(z - e[4]) * (e[3] - e[2] + 1) + y - e[2];
+    return row * (e[1] - e[0] + 1) + x - e[0];
+  };
+  for (int z = box[4]; z <= box[5]; ++z)
+  {
+    for (int y = box[2]; y <= box[3]; ++y)
     {
-      for (int j = 0; j < copied.count[1]; ++j)
-      {
-        this->to->InsertTuples(
-          startIn(target, j, k), copied.count[0], startIn(source, j, k), this->from);
-      }
+      to.values->InsertTuples(at(to.layout, box[0], y, z), box[1] - box[0] + 1,
+        at(from.layout, box[0], y, z), from.values);
     }
   }
-};
-
-vtkIdType tuplesOf(const Extent& extent, bool cells)
-{
-  const IndexRange range = rangeOf(extent.data(), cells);
-  return static_cast<vtkIdType>(range.count[0]) * range.count[1] * range.count[2];
 }
 
 vtkDataSetAttributes* attributesOf(vtkImageData* volume, bool cells)
@@ -132,18 +124,6 @@ vtkDataSetAttributes* attributesOf(vtkImageData* volume, bool cells)
     return volume->GetCellData();
   }
   return volume->GetPointData();
-}
-
-// Whether an extent has cells of a part: an extent of one layer of points has none, but in a part
-// of one layer.
-bool hasCells(const Extent& extent, const Extent& part)
-{
-  bool has = true;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    has = has && (extent[2 * axis + 1] > extent[2 * axis] || part[2 * axis + 1] == part[2 * axis]);
-  }
-  return has;
 }
 
 // An array that ranks exchange.
@@ -229,10 +209,9 @@ vtkDataArray* ownValues(vtkImageData* part, const Exchanged& array)
   return own;
 }
 
-double bytesOf(const Exchanged& array, const Extent& extent)
+double bytesOf(const Exchanged& array, const Extent& counted)
 {
-  return static_cast<double>(tuplesOf(extent, array.ofCells)) * array.components *
-    vtkDataArray::GetDataTypeSize(array.type);
+  return pointsIn(counted) * array.components * vtkDataArray::GetDataTypeSize(array.type);
 }
 
 // An array of zeros. It throws where memory is refused: VTK would print a line of its own.
@@ -251,90 +230,125 @@ vtkSmartPointer<vtkDataArray> zeros(const Exchanged& array, vtkIdType tuples)
   return values;
 }
 
-// Values on the way between two ranks: one layer of points or cells for each message, so that a
-// rank without memory for more can still send.
+// Values on the way between two ranks: one layer for each message, so that a rank without memory
+// for more can still send.
 class Layer
 {
 public:
   explicit Layer(const Exchanged& array)
     : Array(array)
+    , Values(zeros(array, 0))
   {
   }
 
-  // Has room for the layers of an extent.
-  void reserve(const Extent& extent)
+  // Has room for the layers of a box.
+  void reserve(Extent box)
   {
-    const Extent layer{ extent[0], extent[1], extent[2], extent[3], 0, 0 };
-    const vtkIdType tuples = isEmpty(extent) ? 0 : tuplesOf(layer, this->Array.ofCells);
-    if (!this->Values || tuples > this->Values->GetNumberOfTuples())
+    box[5] = std::min(box[4], box[5]);
+    if (sizeOf(box) > this->Values->GetNumberOfTuples())
     {
-      this->Values = zeros(this->Array, tuples);
+      this->Values = zeros(this->Array, sizeOf(box));
     }
   }
 
-  // Calls move(layer, bytes) for each layer of an extent.
+  // Calls move(layer, bytes) for each layer of a box.
   template <typename Move>
-  void forEach(const Extent& extent, const Move& move)
+  void forEach(const Extent& box, const Move& move) const
   {
-    const IndexRange range = rangeOf(extent.data(), this->Array.ofCells);
-    for (int k = 0; k < range.count[2]; ++k)
+    for (int z = box[4]; !isEmpty(box) && z <= box[5]; ++z)
     {
-      Extent layer = extent;
-      layer[4] = layer[5] = range.first[2] + k;
-      move(layer, static_cast<vtkIdType>(bytesOf(this->Array, layer)));
+      const Extent layer{ box[0], box[1], box[2], box[3], z, z };
+      move(ArrayPiece{ layer, layer, this->Values },
+        static_cast<vtkIdType>(bytesOf(this->Array, layer)));
     }
   }
-
-  vtkDataArray* values() const { return this->Values; }
 
 private:
-  const Exchanged& Array;
+  Exchanged Array;
   vtkSmartPointer<vtkDataArray> Values;
 };
 
-// One array while it is exchanged.
-struct Transfer
+// One array while it is exchanged. Extents count its values, points or cells.
+class Transfer
 {
-  Exchanged array;
-  vtkDataArray* own = nullptr;          // of `held`
-  vtkSmartPointer<vtkDataArray> target; // of `wanted`
-  Extent held{};
-  Extent wanted{};
-
-  // What moves from one extent to another; empty: nothing.
-  Extent moved(const Extent& from, const Extent& to) const
+public:
+  // Takes all memory that it needs, or throws. `own`: null, if this rank holds none.
+  Transfer(const Exchanged& array, vtkDataArray* own, const std::vector<Extent>& held,
+    const std::vector<Extent>& wanted, int rank)
+    : Array(array)
+    , Own{ held[rank], held[rank], own }
+    , Wanted(wanted[rank])
+    , Message(array)
   {
-    const Extent both = common(from, to);
-    const bool moves = !isEmpty(both) && (!this->array.ofCells || hasCells(both, from));
-    return moves ? both : Extent{ 0, -1, 0, -1, 0, -1 };
-  }
-
-  void keep() const
-  {
-    const Extent kept = this->moved(this->held, this->wanted);
-    if (!isEmpty(kept))
+    for (const Extent& box : beyond(wanted[rank], held[rank]))
     {
-      Copy{ this->own, this->held, this->target, this->wanted }.run(kept, this->array.ofCells);
+      this->Lacking.push_back({ box, box, zeros(array, sizeOf(box)) });
+    }
+    this->Lacks.reserve(held.size());
+    this->Held = held;
+    for (std::size_t other = 0; other < held.size(); ++other)
+    {
+      this->Lacks.push_back(beyond(wanted[other], held[other]));
+      for (const Extent& box : this->Lacks.back())
+      {
+        this->Message.reserve(common(box, held[rank]));
+      }
+      for (const ArrayPiece& piece : this->Lacking)
+      {
+        this->Message.reserve(common(piece.box, held[other]));
+      }
     }
   }
 
-  void send(vtkMultiProcessController* ranks, Layer& layer, const Extent& to, int rank) const
+  // What another rank lacks and this one holds.
+  void send(vtkMultiProcessController* ranks, int to) const
   {
-    layer.forEach(this->moved(this->held, to), [&](const Extent& extent, vtkIdType bytes) {
-      Copy{ this->own, this->held, layer.values(), extent }.run(extent, this->array.ofCells);
-      ranks->GetCommunicator()->SendVoidArray(
-        layer.values()->GetVoidPointer(0), bytes, VTK_UNSIGNED_CHAR, rank, Tag);
-    });
+    for (const Extent& box : this->Lacks[to])
+    {
+      this->Message.forEach(
+        common(box, this->Own.box), [&](const ArrayPiece& layer, vtkIdType bytes) {
+          copyBox(layer.box, this->Own, layer);
+          ranks->GetCommunicator()->SendVoidArray(
+            layer.values->GetVoidPointer(0), bytes, VTK_UNSIGNED_CHAR, to, Tag);
+        });
+    }
   }
 
-  void receive(vtkMultiProcessController* ranks, Layer& layer, const Extent& from, int rank) const
+  // The other side of send.
+  void receive(vtkMultiProcessController* ranks, int from) const
   {
-    layer.forEach(this->moved(from, this->wanted), [&](const Extent& extent, vtkIdType bytes) {
-      ranks->GetCommunicator()->ReceiveVoidArray(
-        layer.values()->GetVoidPointer(0), bytes, VTK_UNSIGNED_CHAR, rank, Tag);
-      Copy{ layer.values(), extent, this->target, this->wanted }.run(extent, this->array.ofCells);
-    });
+    for (const ArrayPiece& piece : this->Lacking)
+    {
+      this->Message.forEach(
+        common(piece.box, this->Held[from]), [&](const ArrayPiece& layer, vtkIdType bytes) {
+          ranks->GetCommunicator()->ReceiveVoidArray(
+            layer.values->GetVoidPointer(0), bytes, VTK_UNSIGNED_CHAR, from, Tag);
+          copyBox(layer.box, layer, piece);
+        });
+    }
   }
+
+  // The wanted values; own ones stay where they are.
+  vtkSmartPointer<vtkDataArray> values() const
+  {
+    std::vector<ArrayPiece> pieces = this->Lacking;
+    if (this->Own.values && !isEmpty(common(this->Wanted, this->Own.box)))
+    {
+      pieces.push_back(this->Own);
+    }
+    return pieces.empty() ? zeros(this->Array, 0) : arrayOfPieces(this->Wanted, pieces);
+  }
+
+  bool ofCells() const { return this->Array.ofCells; }
+
+private:
+  Exchanged Array;
+  ArrayPiece Own;
+  Extent Wanted;
+  Layer Message;
+  std::vector<ArrayPiece> Lacking;        // of what this rank wants and does not hold
+  std::vector<std::vector<Extent>> Lacks; // of each rank
+  std::vector<Extent> Held;               // by each rank
 };
 
 // The range of each component of all values and of their magnitude, finite ones alone.
@@ -389,7 +403,18 @@ std::vector<long long> machinesOfAll(vtkMultiProcessController* ranks)
   return all;
 }
 
-// Takes all memory that an exchange needs, or throws. The ranks' extents are known to all.
+std::vector<Extent> countedOfAll(const std::vector<Extent>& extents, bool cells)
+{
+  std::vector<Extent> counted;
+  counted.reserve(extents.size());
+  for (const Extent& extent : extents)
+  {
+    counted.push_back(countedOf(extent, cells));
+  }
+  return counted;
+}
+
+// The voxels that ranks lack, while they are exchanged. The ranks' extents are known to all.
 class Exchange
 {
 public:
@@ -399,19 +424,32 @@ public:
   {
   }
 
+  // Bytes that a rank lacks. Known after prepare.
+  double bytesOfRank(int rank) const
+  {
+    double bytes = 0.0;
+    for (const Exchanged& array : this->Arrays)
+    {
+      const Extent wanted = countedOf(this->Wanted[rank], array.ofCells);
+      for (const Extent& box : beyond(wanted, countedOf(this->Held[rank], array.ofCells)))
+      {
+        bytes += bytesOf(array, box);
+      }
+    }
+    return bytes;
+  }
+
+  // Takes all memory that an exchange needs, or throws.
   void prepare(vtkImageData* part, const std::vector<Exchanged>& arrays, int rank,
     const std::vector<long long>& machines)
   {
     const Extent& own = this->Wanted[rank];
+    this->Arrays = arrays;
     std::vector<ProcessNeed> needs;
+    needs.reserve(machines.size());
     for (std::size_t i = 0; i < machines.size(); ++i)
     {
-      const Extent& wanted = this->Wanted[i];
-      needs.push_back({ machines[i], 0.0 });
-      for (const Exchanged& array : arrays)
-      {
-        needs[i].bytes += isEmpty(wanted) ? 0.0 : bytesOf(array, wanted);
-      }
+      needs.push_back({ machines[i], this->bytesOfRank(static_cast<int>(i)) });
     }
     const std::string what = "its part of the volume, " +
       sizeText(glm::dvec3(own[1] - own[0] + 1, own[3] - own[2] + 1, own[5] - own[4] + 1)) +
@@ -419,10 +457,10 @@ public:
     requireHostMemory(what, needs[rank].bytes);
     throwIfAny(sharedMemoryProblem(what, needs, rank, freeMachineMemory()));
     throwIfAny(sentenceThrownBy(what, [&] {
-      this->Arrays = arrays;
-      for (const Exchanged& array : this->Arrays)
+      for (const Exchanged& array : arrays)
       {
-        this->take(array, ownValues(part, array), rank);
+        this->Transfers.emplace_back(array, ownValues(part, array),
+          countedOfAll(this->Held, array.ofCells), countedOfAll(this->Wanted, array.ofCells), rank);
       }
     }));
   }
@@ -432,10 +470,8 @@ public:
   {
     const int own = ranks->GetLocalProcessId();
     const int count = ranks->GetNumberOfProcesses();
-    for (std::size_t i = 0; i < this->Transfers.size(); ++i)
+    for (const Transfer& transfer : this->Transfers)
     {
-      const Transfer& transfer = this->Transfers[i];
-      transfer.keep();
       for (int a = 0; a < count; ++a)
       {
         for (int b = a + 1; b < count; ++b)
@@ -443,15 +479,15 @@ public:
           const int other = own == a ? b : a;
           if (own == a)
           {
-            transfer.send(ranks, this->Layers[i], this->Wanted[other], other);
+            transfer.send(ranks, other);
           }
           if (own == a || own == b)
           {
-            transfer.receive(ranks, this->Layers[i], this->Held[other], other);
+            transfer.receive(ranks, other);
           }
           if (own == b)
           {
-            transfer.send(ranks, this->Layers[i], this->Wanted[other], other);
+            transfer.send(ranks, other);
           }
         }
       }
@@ -464,33 +500,16 @@ public:
     image->SetExtent(const_cast<int*>(this->Wanted[rank].data()));
     for (const Transfer& transfer : this->Transfers)
     {
-      attributesOf(image, transfer.array.ofCells)->AddArray(transfer.target);
+      attributesOf(image, transfer.ofCells())->AddArray(transfer.values());
     }
     return image;
   }
 
 private:
-  void take(const Exchanged& array, vtkDataArray* own, int rank)
-  {
-    Transfer transfer{ array, own, nullptr, this->Held[rank], this->Wanted[rank] };
-    const bool wants = !isEmpty(transfer.wanted);
-    transfer.target = zeros(array, wants ? tuplesOf(transfer.wanted, array.ofCells) : 0);
-    Layer layer(array);
-    layer.reserve({ 0, -1, 0, -1, 0, -1 });
-    for (std::size_t other = 0; other < this->Held.size(); ++other)
-    {
-      layer.reserve(transfer.moved(transfer.held, this->Wanted[other]));
-      layer.reserve(transfer.moved(this->Held[other], transfer.wanted));
-    }
-    this->Transfers.push_back(transfer);
-    this->Layers.push_back(layer);
-  }
-
   const std::vector<Extent>& Held;
   const std::vector<Extent>& Wanted;
   std::vector<Exchanged> Arrays;
   std::vector<Transfer> Transfers;
-  std::vector<Layer> Layers;
 };
 }
 
@@ -511,7 +530,7 @@ WholeVolume SharedVolume::wholeOf(
   if (own == first)
   {
     const Grid held = gridOf(part);
-    const Extent extent = extentOf(part);
+    const Extent extent = heldBy(part);
     grid = held;
     grid.origin = held.worldFromGrid(
       glm::dvec3(whole[0] - extent[0], whole[2] - extent[2], whole[4] - extent[4]));
@@ -530,7 +549,7 @@ WholeVolume SharedVolume::wholeOf(
 bool SharedVolume::changed(vtkImageData* part, const Extent& whole, const Extent& wanted)
 {
   std::vector<Known> arrays;
-  const Extent held = extentOf(part);
+  const Extent held = heldBy(part);
   std::vector<int> extents(whole.begin(), whole.end());
   extents.insert(extents.end(), held.begin(), held.end());
   extents.insert(extents.end(), wanted.begin(), wanted.end());
@@ -552,7 +571,7 @@ std::string SharedVolume::exchange(vtkMultiProcessController* ranks, vtkImageDat
   const Extent& wanted, const std::string& problem)
 {
   const vtkTimerLogScope shown("Exchange voxels between MPI ranks"); // in ParaView's Timer Log
-  const std::vector<Extent> allHeld = extentsOfAll(ranks, extentOf(part));
+  const std::vector<Extent> allHeld = extentsOfAll(ranks, heldBy(part));
   const std::vector<Extent> allWanted = extentsOfAll(ranks, wanted);
   const std::vector<Exchanged> arrays = exchangedBy(ranks, part, allHeld);
   const std::vector<long long> machines = machinesOfAll(ranks);
@@ -569,6 +588,7 @@ std::string SharedVolume::exchange(vtkMultiProcessController* ranks, vtkImageDat
   {
     exchange.run(ranks);
     this->Voxels = exchange.volume(own);
+    this->Received = exchange.bytesOfRank(own);
     this->Lender = lenderOf(allHeld, allWanted);
     this->Ranges = rangesOf(ranks, part, arrays);
   }

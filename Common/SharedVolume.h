@@ -4,6 +4,7 @@
 #ifndef BrainShift_SharedVolume_h
 #define BrainShift_SharedVolume_h
 
+#include "Common/Extent.h"
 #include "Common/Grid.h"
 #include "vtkBrainShiftCommonModule.h" // for the export macro
 
@@ -23,9 +24,6 @@ class vtkMultiProcessController;
 
 namespace brainshift
 {
-/// First and last point along x, y and z, as VTK counts them.
-using Extent = std::array<int, 6>;
-
 /// A volume of which ranks hold parts.
 struct WholeVolume
 {
@@ -38,9 +36,10 @@ struct WholeVolume
 using WholeRanges = std::map<std::pair<bool, std::string>, std::vector<std::array<double, 2>>>;
 
 /**
- * Gives each MPI rank the voxels that it wants of those that all ranks hold. They are sent when
- * some changed or a rank wants others, so most strokes send none. What the volume carries as field
- * data, such as its deformation, is whole on each rank that holds voxels; others get it, too.
+ * Gives each MPI rank the voxels that it wants of those that all ranks hold. It gets those that it
+ * lacks; what it holds stays where the pipeline has it (PiecedArray.h). They are sent when some
+ * changed or a rank wants others, so most strokes send none. What the volume carries as field data,
+ * such as its deformation, is whole on each rank that holds voxels; others get it, too.
  *
  * The pipeline is not asked for other voxels than ParaView asks for: a reader would read its file
  * again whenever the requests of two consumers take turns.
@@ -75,6 +74,9 @@ public:
    * of cells has none if one of points has its name. */
   const WholeRanges& ranges() const { return this->Ranges; }
 
+  /** Bytes of the voxels that this rank has beside its part, since the last exchange. */
+  double bytesReceived() const { return this->Received; }
+
 private:
   struct Known
   {
@@ -98,6 +100,7 @@ private:
   WholeRanges Ranges;
   std::vector<Known> Arrays;            // of this rank's part, as sent last
   std::vector<int> Extents;             // of this rank's part, of the whole, and wanted
+  double Received = 0.0;                // bytes
   int Lender = -1;                      // this rank's words go to ranks without voxels; -1: none
   vtkSmartPointer<vtkImageData> Voxels; // of the wanted extent
 };

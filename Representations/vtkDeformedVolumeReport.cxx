@@ -18,6 +18,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPVLODVolume.h"
 #include "vtkPVRenderView.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
 #include <algorithm>
@@ -240,7 +241,8 @@ const char* vtkDeformedVolumeReport::GetCounters()
 {
   vtkDeformedVolumeMapper* mapper = this->Mapper();
   vtkDeformedSlicesMapper* slices = this->Slices();
-  if (!mapper && !slices)
+  auto whole = vtkWholeVolumeRepresentation::SafeDownCast(this->ActiveRepresentation());
+  if (!whole || (!mapper && !slices))
   {
     return "";
   }
@@ -260,7 +262,7 @@ const char* vtkDeformedVolumeReport::GetCounters()
        << count.gpuBricks << "\ngpuBricksWanted " << count.gpuBricksWanted << "\ngpuBricksComing "
        << count.gpuBricksComing << "\ngpuBricksRead " << count.gpuBricksRead
        << "\ngpuBricksLackRoom " << count.gpuBricksLackRoom << "\ngpuFieldMicroseconds "
-       << count.gpuFieldMicroseconds;
+       << count.gpuFieldMicroseconds << "\nvoxelBytes " << whole->GetVoxelBytes();
   this->Counters = text.str();
   return this->Counters.c_str();
 }

@@ -2,6 +2,8 @@
 #include "vtkWholeVolumeRepresentation.h"
 
 #include "Common/Guard.h"
+#include "Common/ImageGrid.h"
+#include "Common/ImageParts.h"
 #include "Filters/Attached/BendNumbers.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
@@ -61,6 +63,11 @@ void forEachShown(vtkPVRenderView* view, const Visit& visit)
       visit(data);
     }
   }
+}
+
+double bytesOf(vtkImageData* volume)
+{
+  return brainshift::bytesOfPoint(volume) * static_cast<double>(volume->GetNumberOfPoints());
 }
 
 // Whether several ranks may draw: all but a process that is client and server alone.
@@ -177,6 +184,11 @@ void vtkWholeVolumeRepresentation::Overtake(const Group& group, vtkInformation* 
     }
   }
   group.front()->KeepsBoxes = false;
+}
+
+long long vtkWholeVolumeRepresentation::GetVoxelBytes() const
+{
+  return std::llround((this->Part ? bytesOf(this->Part) : 0.0) + this->Shared->bytesReceived());
 }
 
 void vtkWholeVolumeRepresentation::SetRankHalo(double halo)
@@ -397,23 +409,12 @@ void vtkWholeVolumeRepresentation::TakeVoxels(const Group& all)
 std::string vtkWholeVolumeRepresentation::WhyBentUnlike(const Group& group)
 {
   vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  std::string problem; // the same on all ranks
   for (vtkWholeVolumeRepresentation* volume : group)
   {
-    std::vector<brainshift::BendNumber> numbers;
-    const std::string problem = brainshift::problemOnAny(ranks,
-      brainshift::sentenceThrownBy(
-        "its deformation", [&] { numbers = brainshift::bendNumbersOf(volume->Part); }));
-    if (!problem.empty())
-    {
-      return problem;
-    }
-    if (!brainshift::areSameOnAll(ranks, numbers))
-    {
-      return "The MPI ranks bend the volume in different ways: one of them could not follow, and "
-             "reported why";
-    }
+    problem = problem.empty() ? brainshift::bendProblem(ranks, volume->Part) : problem;
   }
-  return {};
+  return problem;
 }
 
 // Why this rank cannot draw a part; empty: it can.
@@ -511,8 +512,13 @@ brainshift::Box vtkWholeVolumeRepresentation::ShareWork(
     const std::vector<long long> own = counts.cells;
     ranks->AllReduce(own.data(), counts.cells.data(), own.size(), vtkCommunicator::SUM_OP);
   }
-  const std::vector<brainshift::Box> parts = brainshift::balancedParts(
+  std::vector<brainshift::Box> parts = brainshift::balancedParts(
     first->RankBoxes, first->AllBoxes, ranks->GetNumberOfProcesses(), counts, first->KeepsBoxes);
+  if (counted)
+  {
+    const auto held = first->Part ? brainshift::boxAround(brainshift::gridOf(first->Part)) : NoBox;
+    parts = brainshift::nearestParts(parts, brainshift::boxesOfAll(ranks, held));
+  }
   for (vtkWholeVolumeRepresentation* volume : group)
   {
     volume->RankBoxes = parts;
@@ -571,7 +577,7 @@ void vtkWholeVolumeRepresentation::Draw(vtkImageData* volume)
     vtkMath::UninitializeBounds(this->DataBounds);
     return;
   }
-  this->DataSize = volume->GetActualMemorySize();
+  this->DataSize = static_cast<decltype(this->DataSize)>(bytesOf(volume) / 1024.0);
   this->OutlineSource->SetBounds(volume->GetBounds());
   this->OutlineSource->Update();
   this->WidenBounds(); // ParaView orders ranks by these

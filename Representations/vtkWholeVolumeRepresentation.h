@@ -67,6 +67,10 @@ public:
   vtkGetMacro(RankHalo, double);
   ///@}
 
+  /** Bytes of the voxels that this process has in memory: those of its pipeline, and on several MPI
+   * ranks those beyond them that it draws. */
+  long long GetVoxelBytes() const;
+
 protected:
   vtkWholeVolumeRepresentation();
   ~vtkWholeVolumeRepresentation() override;

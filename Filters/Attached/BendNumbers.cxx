@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/BendNumbers.h"
 
+#include "Common/Guard.h"
+#include "Common/RankAgreement.h"
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCommunicator.h"
@@ -86,5 +88,17 @@ bool areSameOnAll(vtkMultiProcessController* ranks, const std::vector<BendNumber
     same = same && all[i] + all[i + 1] <= RoundingOfScale * all[i + 2];
   }
   return same;
+}
+
+std::string bendProblem(vtkMultiProcessController* ranks, vtkDataObject* volume)
+{
+  std::vector<BendNumber> numbers;
+  const std::string problem = problemOnAny(
+    ranks, sentenceThrownBy("its deformation", [&] { numbers = bendNumbersOf(volume); }));
+  const bool isSame = problem.empty() && areSameOnAll(ranks, numbers);
+  return isSame || !problem.empty()
+    ? problem
+    : "The MPI ranks bend the volume in different ways: one of them could not follow, and reported "
+      "why";
 }
 }

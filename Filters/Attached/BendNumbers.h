@@ -7,6 +7,7 @@
 
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
+#include <string>
 #include <vector>
 
 class vtkDataObject;
@@ -31,6 +32,11 @@ VTKBRAINSHIFTFILTERS_EXPORT std::vector<BendNumber> bendNumbersOf(vtkDataObject*
 /** Whether the numbers of all MPI ranks are the same. All ranks must call it together. */
 VTKBRAINSHIFTFILTERS_EXPORT bool areSameOnAll(
   vtkMultiProcessController* ranks, const std::vector<BendNumber>& here);
+
+/** Why MPI ranks do not bend a volume in the same way, on all of them; empty: they do. All ranks
+ * must call it together. */
+VTKBRAINSHIFTFILTERS_EXPORT std::string bendProblem(
+  vtkMultiProcessController* ranks, vtkDataObject* volume);
 }
 
 #endif

@@ -6,8 +6,10 @@
 #include "Common/ImageParts.h"
 #include "Common/Numbers.h"
 #include "Common/Parallel.h"
+#include "Common/PiecedArray.h"
 #include "Common/Problem.h"
 #include "Common/RankAgreement.h"
+#include "Common/SharedVolume.h"
 #include "Formats/Volumes/FinerLevels.h"
 
 #include "vtkDataArray.h"
@@ -289,17 +291,16 @@ Extent voxelsOf(const Extent& averages, const Extent& whole, const glm::ivec3& j
   return extentBetween(first + firstOf(whole), glm::min(last, sidesOf(whole) - 1) + firstOf(whole));
 }
 
-bool isEmpty(const Extent& extent)
-{
-  return glm::any(glm::lessThan(sidesOf(extent), glm::ivec3(1)));
-}
-
 vtkSmartPointer<vtkImageData> sharedBy(vtkMultiProcessController* ranks, vtkImageData* part,
   const WholeVolume& whole, const Extent& wanted)
 {
   std::string problem;
   auto image = SharedVolume().share(ranks, part, whole, wanted, problem);
   throwIfAny(problem);
+  if (vtkDataArray* scalars = image->GetPointData()->GetScalars())
+  {
+    image->GetPointData()->SetScalars(contiguous(scalars)); // samples are taken here and there
+  }
   return image;
 }
 

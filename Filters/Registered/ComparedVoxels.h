@@ -4,8 +4,14 @@
 #ifndef BrainShift_ComparedVoxels_h
 #define BrainShift_ComparedVoxels_h
 
-#include "Common/SharedVolume.h"
+#include "Common/Extent.h"
+#include "Common/Grid.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
+
+#include "vtkImageData.h" // for its smart pointer
+#include "vtkSmartPointer.h"
+
+#include <string>
 
 class vtkDataArray;
 class vtkInformation;

@@ -102,6 +102,8 @@ def counters(representation):
       `CountSamples` of the representation is on
     - `imageScale`: screen pixels along one side of a pixel that was drawn, a state, not a count
     - `programsCompiled`: shader programs compiled
+    - `voxelBytes`: bytes of the volume in this process's memory, a state: ParaView's part of it,
+      and what a rank of several draws beyond that part
 
     Raises `ValueError` if `representation` is drawn in another way.
     """

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/CategoryScalars.h"
 
+#include "Common/PiecedArray.h"
 #include "Representations/Gpu/ShaderSource.h"
 
 #include "vtkColorTransferFunction.h"
@@ -175,7 +176,8 @@ bool CategoryScalars::update(vtkDataArray* scalars, int component, vtkVolumeProp
 
 void CategoryScalars::count(vtkDataArray* scalars, int component, vtkColorTransferFunction* map)
 {
-  const ComponentValues values(scalars, component);
+  const vtkSmartPointer<vtkDataArray> inOrder = contiguous(scalars); // each value is read alone
+  const ComponentValues values(inOrder, component);
   bool hasNaN = false;
   this->Values = distinctValues(values, hasNaN);
   this->IsOfAnnotations = this->Values.size() > MostCategories;

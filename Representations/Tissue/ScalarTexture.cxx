@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/ScalarTexture.h"
 
+#include "Common/PiecedArray.h"
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Tissue/CoarseVoxels.h"
@@ -33,20 +34,23 @@ double lengthOf(const T* tuple, int components)
 template <typename T, typename Stored, typename Convert>
 void convertTyped(vtkDataArray* scalars, int component, Stored* stored, const Convert& convert)
 {
-  const T* values = static_cast<const T*>(scalars->GetVoidPointer(0));
   const vtkIdType components = scalars->GetNumberOfComponents();
   const vtkIdType chosen = std::min<vtkIdType>(component, components - 1);
-  parallelFor(0, scalars->GetNumberOfTuples(), VoxelsAtLeast, [&](vtkIdType first, vtkIdType end) {
-    for (vtkIdType i = first; components == 1 && i < end; ++i) // apart: this one vectorises
+  const auto convertRun = [&](vtkIdType first, const T* values, vtkIdType count) {
+    Stored* const out = stored + first;
+    for (vtkIdType i = 0; components == 1 && i < count; ++i) // apart: this one vectorises
     {
-      stored[i] = convert(values[i]);
+      out[i] = convert(values[i]);
     }
-    for (vtkIdType i = first; components > 1 && i < end; ++i)
+    for (vtkIdType i = 0; components > 1 && i < count; ++i)
     {
-      stored[i] = chosen < 0 ? convert(lengthOf(values + i * components, components))
-                             : convert(values[i * components + chosen]);
+      out[i] = chosen < 0 ? convert(lengthOf(values + i * components, components))
+                          : convert(values[i * components + chosen]);
     }
-  });
+  };
+  const vtkSmartPointer<vtkDataArray> runs = inRuns<T>(scalars);
+  parallelFor(0, scalars->GetNumberOfTuples(), VoxelsAtLeast,
+    [&](vtkIdType first, vtkIdType end) { forEachRun<T>(runs, first, end, convertRun); });
 }
 
 template <typename Voxel, typename Write>
@@ -66,8 +70,9 @@ void joinAs(const ScalarSource& source, const Voxel& voxel, const Write& write)
 template <typename T, typename Stored, typename Convert>
 void convertCoarser(const ScalarSource& source, Stored* stored, const Convert& convert)
 {
-  const T* values = static_cast<const T*>(source.scalars->GetVoidPointer(0));
-  const int components = source.scalars->GetNumberOfComponents();
+  const vtkSmartPointer<vtkDataArray> scalars = contiguous(source.scalars);
+  const T* values = static_cast<const T*>(scalars->GetVoidPointer(0));
+  const int components = scalars->GetNumberOfComponents();
   const int chosen = std::min(source.component, components - 1);
   const auto write = [=](vtkIdType texel, double number) { stored[texel] = convert(number); };
   if (components == 1 && chosen == 0) // apart: this one is faster
@@ -129,6 +134,13 @@ struct Floats
     return static_cast<float>(static_cast<double>(value));
   }
 };
+
+// Whether a texture takes the array's own numbers, if they have its type.
+bool isStoredAsItIs(const ScalarSource& source)
+{
+  return source.scalars->GetNumberOfComponents() == 1 && source.layout.isWhole() &&
+    source.scalars->HasStandardMemoryLayout();
+}
 
 int& texturesGivenBack()
 {
@@ -238,8 +250,7 @@ bool ScalarTexture::uploadFloats(const ScalarSource& source, Counters& counters)
   this->Scale = 1.0;
   this->Shift = 0.0;
   this->Texture->SetInternalFormat(GL_R32F);
-  if (scalars->GetDataType() == VTK_FLOAT && scalars->GetNumberOfComponents() == 1 &&
-    source.layout.isWhole())
+  if (scalars->GetDataType() == VTK_FLOAT && isStoredAsItIs(source))
   {
     return this->create(
       static_cast<float*>(scalars->GetVoidPointer(0)), VTK_FLOAT, 1.0f, dimensions, counters);
@@ -257,8 +268,7 @@ bool ScalarTexture::uploadSixteenBits(const ScalarSource& source, Counters& coun
   this->Scale = convert.scale();
   this->Shift = convert.shift();
   this->Texture->SetInternalFormat(drawsInSoftware() ? GL_R32F : GL_R16);
-  if (scalars->GetDataType() == VTK_UNSIGNED_SHORT && scalars->GetNumberOfComponents() == 1 &&
-    source.layout.isWhole())
+  if (scalars->GetDataType() == VTK_UNSIGNED_SHORT && isStoredAsItIs(source))
   {
     return this->create(static_cast<std::uint16_t*>(scalars->GetVoidPointer(0)), VTK_UNSIGNED_SHORT,
       ShaderFromSixteenBits, dimensions, counters);

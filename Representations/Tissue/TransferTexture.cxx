@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/TransferTexture.h"
 
+#include "Common/PiecedArray.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Tissue/CoarseVoxels.h"
 #include "Representations/Tissue/SteepnessTexture.h"
@@ -73,8 +74,11 @@ bool ColorTexture::update(
   {
     return true;
   }
-  std::vector<std::uint8_t> bytes =
-    layout.isWhole() ? bytesOf(array) : coarserBytes(bytesOf(array), layout);
+  std::vector<std::uint8_t> bytes = bytesOf(contiguous(array));
+  if (!layout.isWhole())
+  {
+    bytes = coarserBytes(bytes, layout);
+  }
   const glm::ivec3& dimensions = layout.dimensions;
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);

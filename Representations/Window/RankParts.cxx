@@ -14,6 +14,8 @@ namespace
 {
 // A part may have so many times the mean work.
 constexpr double MostWork = 1.5;
+// Of another one: so a stroke, which lengthens a box, does not turn cuts around.
+constexpr double LongerSide = 1.05;
 
 // The box of a cell. The last cells of an axis end exactly where the box does.
 Box cellOf(const Box& box, const glm::ivec3& index)
@@ -68,11 +70,11 @@ void cut(const Box& whole, int ranks, const TissueCounts* counts, std::vector<Bo
     parts.push_back(whole);
     return;
   }
-  int axis = 0;
-  for (int other = 1; other < 3; ++other)
+  int axis = 2;
+  for (int other = 1; other >= 0; --other)
   {
     const double side = whole[2 * other + 1] - whole[2 * other];
-    axis = side > whole[2 * axis + 1] - whole[2 * axis] ? other : axis;
+    axis = side > LongerSide * (whole[2 * axis + 1] - whole[2 * axis]) ? other : axis;
   }
   const int below = ranks / 2;
   const double at = cutAt(whole, axis, below / static_cast<double>(ranks), counts);
@@ -131,8 +133,6 @@ PositionRange inGrid(const Grid& grid, const Box& box)
 glm::dvec2 rangeOf(const std::optional<DrawnPart>& part, vtkImageData* image,
   const DrawnValues& values, int component)
 {
-  glm::dvec2 range;
-  values.scalars->GetFiniteRange(&range[0], component);
   const char* name = values.scalars->GetName();
   if (part && name)
   {
@@ -143,9 +143,11 @@ glm::dvec2 rangeOf(const std::optional<DrawnPart>& part, vtkImageData* image,
       const int last = static_cast<int>(known->second.size()) - 1; // the magnitude
       const std::array<double, 2>& whole =
         known->second[component < 0 ? last : std::min(component, last)];
-      range = glm::dvec2(whole[0], whole[1]);
+      return { whole[0], whole[1] };
     }
   }
+  glm::dvec2 range;
+  values.scalars->GetFiniteRange(&range[0], component);
   return range;
 }
 
@@ -204,6 +206,44 @@ std::vector<Box> balancedParts(const std::vector<Box>& parts, const Box& former,
     kept = rankParts(counts.box, ranks);
   }
   return isBalanced(kept, counts) ? kept : rankParts(counts.box, ranks, &counts);
+}
+
+std::vector<Box> nearestParts(const std::vector<Box>& parts, const std::vector<Box>& held)
+{
+  struct Pair
+  {
+    double common; // fraction of what the rank holds that is in the part
+    int rank;
+    int part;
+  };
+  const int ranks = static_cast<int>(held.size());
+  std::vector<Pair> pairs;
+  pairs.reserve(held.size() * parts.size());
+  for (int rank = 0; rank < ranks; ++rank)
+  {
+    for (int part = 0; part < ranks; ++part)
+    {
+      pairs.push_back({ fractionIn(held[rank], parts[part]), rank, part });
+    }
+  }
+  const auto isBefore = [](const Pair& a, const Pair& b) {
+    const bool aStays = a.rank == a.part;
+    const bool bStays = b.rank == b.part;
+    return a.common != b.common ? a.common > b.common : aStays && !bStays;
+  };
+  std::stable_sort(pairs.begin(), pairs.end(), isBefore);
+  std::vector<Box> nearest(parts.size());
+  std::vector<bool> hasPart(parts.size());
+  std::vector<bool> isTaken(parts.size());
+  for (const Pair& pair : pairs)
+  {
+    if (!hasPart[pair.rank] && !isTaken[pair.part])
+    {
+      nearest[pair.rank] = parts[pair.part];
+      hasPart[pair.rank] = isTaken[pair.part] = true;
+    }
+  }
+  return nearest;
 }
 
 Box withoutOuterSides(const Box& part, const Box& whole)

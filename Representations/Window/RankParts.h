@@ -61,7 +61,8 @@ struct VTKBRAINSHIFTREPRESENTATIONS_EXPORT TissueCounts
 
 /**
  * Cuts a box into one for each rank. Each cut goes across the longest side, and divides it as it
- * divides the ranks; with counts, it divides the work so.
+ * divides the ranks; with counts, it divides the work so. Of sides alike in length the last one is
+ * cut, as ParaView cuts a volume for its pipeline.
  */
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> rankParts(
   const Box& whole, int ranks, const TissueCounts* counts = nullptr);
@@ -76,6 +77,16 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> rankParts(
  */
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> balancedParts(const std::vector<Box>& parts,
   const Box& former, int ranks, const TissueCounts& counts, bool keeps = false);
+
+/**
+ * The same parts, in an order that gives each rank much of what it holds: then it lacks few voxels.
+ * Parts in such an order stay where they are.
+ *
+ * @param parts  one for each rank
+ * @param held   mm, the voxels that each rank has from its pipeline
+ */
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<Box> nearestParts(
+  const std::vector<Box>& parts, const std::vector<Box>& held);
 
 /** A part without those of its sides that are sides of the whole: they are far outside. Rays go to
  * their ends there. */

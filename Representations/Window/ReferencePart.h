@@ -8,9 +8,16 @@
 #ifndef BrainShift_ReferencePart_h
 #define BrainShift_ReferencePart_h
 
+#include "Common/Extent.h"
 #include "Common/RankAgreement.h"
-#include "Common/SharedVolume.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
+#include "vtkDataArray.h" // for its smart pointer
+#include "vtkSmartPointer.h"
+
+#include <glm/glm.hpp>
+
+class vtkImageData;
 
 namespace brainshift
 {

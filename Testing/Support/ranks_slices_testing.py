@@ -9,7 +9,8 @@ import sys
 import numpy
 from brainshift_testing import look, picture, show_volume, view_along
 from paraview import simple
-from ranks_testing import COLORS, OPACITIES, REFUSES, SIZE, TURN_DATA, TURN_INFORMATION, limit
+from ranks_testing import (COLORS, OPACITIES, REFUSES, SIZE, TURN_DATA, TURN_INFORMATION, WIDE_HALO,
+                           limit)
 from slices_testing import PLANES, flat_view, show_slices
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
@@ -259,7 +260,7 @@ def answer_refusal(found):
     volume = simple.FreeFormDeformation(Input=simple.Wavelet(WholeExtent=[-80, 80] * 3))
     volume.UpdatePipeline()
     view = see(distance=450.0)
-    display = show(volume, view)
+    display = show(volume, view, RankHalo=WIDE_HALO)
     display.Visibility = 0
     picture(view)  # windows and mappers need memory, too
     limit(1, REFUSES)
@@ -276,7 +277,8 @@ def answer_refusal(found):
 #: What is asked where, each of several ranks: of 2 and of 4 what depends on their number.
 QUESTIONS = {
     2: (answer_refusal, answer_planes, answer_filters, answer_comparisons, answer_whole),
-    4: (answer_refusal, answer_planes, answer_flat, answer_blended),
+    4: (answer_refusal, answer_planes, answer_flat, answer_blended, answer_four_views),
+    8: (answer_planes, answer_blended, answer_four_views),
     "server": (answer_scene, answer_askew, answer_four_views)}
 
 

@@ -20,7 +20,8 @@ COLORS = [0, 0, 0, 1, 150, 0, 1, 0, 300, 1, 0, 0]
 OPACITIES = [0, 0, 0.5, 0, 150, 0.02, 0.5, 0, 300, 0.3, 0.5, 0]
 PIXELS = [(SIZE // 2, SIZE // 2), (45, 68), (75, 52), (2, 2)]
 NOWHERE = (numpy.nan,) * 3
-REFUSES = 4 << 20  # bytes that a rank may take; its part of a volume is larger
+REFUSES = 2 << 20  # bytes that a rank may take; it lacks more of a volume
+WIDE_HALO = 30.0   # mm, so that it does
 #: What the first of several ranks reports then, each once.
 REFUSALS = ["MPI rank 1 of {}: its part of the volume, .* The first rank draws the whole volume",
             "MPI rank 0 of {}: its part of the volume, .* The picture stays as it was",
@@ -184,7 +185,7 @@ def answer_letters(found):
 
 def answer_parts(found):
     """A larger volume, seen askew, opaque, in parallel, as a projection, from within, and how much
-    of it the first rank has on its card."""
+    of it the first rank has in memory and on its card."""
     import brainshift
     source = simple.Wavelet(WholeExtent=[-30, 30] * 3)
     volume = simple.FreeFormDeformation(Input=source)
@@ -197,6 +198,8 @@ def answer_parts(found):
         display.AmbientOcclusion = 0
         found[f"large {name}"] = picture(view)
         found[f"bytes {name}"] = numpy.array([brainshift.gpu(display)["gpuScalarBytes"]])
+        found[f"bytes in memory {name}"] = numpy.array(
+            [brainshift.counters(display)["voxelBytes"]])
     display.ScalarOpacityFunction.Points = [0, 0, 0.5, 0, 200, 0, 0.5, 0, 210, 1, 0.5, 0]
     found["large opaque"] = picture(view)
     view.CameraParallelProjection = 1
@@ -366,7 +369,7 @@ def answer_refusal(found):
     volume.UpdatePipeline()
     view = view_along((-0.5, 0.3, -1), MIDDLE, 450.0, size=SIZE)
     display = show_volume(volume, view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
-    display.Visibility = 0
+    display.Visibility, display.RankHalo = 0, WIDE_HALO
     picture(view)  # windows and mappers need memory, too
     limit(1, REFUSES)
     display.Visibility = 1
@@ -408,7 +411,7 @@ def answer_reference_alone(found):
     display = show_volume(compared, view, "Deformed Volume", COLORS, OPACITIES, array="RTData",
                           shade=True)
     display.AmbientOcclusion, display.RankHalo = 0, 2.0
-    for name, shift in (("", (0, 0, 0)), (", moved", (1.0, -0.5, 1.0)), (", far", (9, 7, -8))):
+    for name, shift in (("", (0, 0, 0)), (", moved", (1.0, -0.5, 1.0)), (", far", (9, 7, 8))):
         compared.ReferenceTranslation = shift
         found["large reference" + name] = picture(view)
         found["bytes reference" + name] = numpy.array([brainshift.gpu(display)["gpuOtherBytes"]])

@@ -168,18 +168,50 @@ TEST(RankParts, StayUntilTheirWorkIsFarFromTheMean)
 
   // A stroke widens the box: the cuts between the parts stay.
   const Box former = counts.box;
-  counts.box = { -3, 64, 0, 16, 0, 18 };
+  counts.box = { -3, 64, 0, 18, 0, 16 };
   std::vector<Box> expected = moved;
   for (Box& part : expected)
   {
     part[0] = part[0] == 0.0 ? -3.0 : part[0];
-    part[5] = part[5] == 16.0 ? 18.0 : part[5];
+    part[3] = part[3] == 16.0 ? 18.0 : part[3];
   }
   EXPECT_EQ(balancedParts(moved, former, ranks, counts), expected);
   // Another volume: they do not fit.
   counts.box = { 100, 164, 0, 16, 0, 16 };
   EXPECT_EQ(balancedParts(moved, former, ranks, counts)[0][0], 100.0);
   EXPECT_EQ(balancedParts(moved, former, ranks, counts, /*keeps*/ true)[0][0], 100.0);
+}
+
+// Axes that point backwards turn the order of the pipeline's pieces around.
+TEST(RankParts, AreThoseOfTheVoxelsThatARankHolds)
+{
+  const Box whole{ 0, 64, 0, 64, 0, 64 };
+  const std::vector<Box> parts = rankParts(whole, 8);
+  std::vector<Box> held(parts.rbegin(), parts.rend());
+  EXPECT_EQ(nearestParts(parts, held), held);
+  EXPECT_EQ(nearestParts(held, held), held) << "they stay";
+  held[2] = { 1e300, -1e300, 1e300, -1e300, 1e300, -1e300 }; // no voxels
+  EXPECT_EQ(nearestParts(parts, held)[2], parts[5]) << "the one that is left";
+  std::fill(held.begin(), held.end(), whole); // as if each read all
+  EXPECT_EQ(nearestParts(parts, held), parts);
+
+  std::mt19937 random(12);
+  std::uniform_real_distribution<> place(0.0, 64.0);
+  for (int i = 0; i < 100; ++i)
+  {
+    for (Box& box : held)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double a = std::floor(place(random) / 16.0);
+        box[2 * axis] = 16.0 * a;
+        box[2 * axis + 1] = 16.0 * a + 32.0;
+      }
+    }
+    const std::vector<Box> nearest = nearestParts(parts, held);
+    EXPECT_TRUE(std::is_permutation(nearest.begin(), nearest.end(), parts.begin()));
+    EXPECT_EQ(nearestParts(nearest, held), nearest) << "they stay";
+  }
 }
 
 TEST(RankParts, HaveAllTissueThatComesIntoThem)

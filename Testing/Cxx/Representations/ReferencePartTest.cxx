@@ -7,6 +7,7 @@
 #include "Filters/Attached/ReferenceVolume.h"
 
 #include <vtkFieldData.h>
+#include <vtkImageData.h>
 #include <vtkShortArray.h>
 #include <vtkUnsignedCharArray.h>
 

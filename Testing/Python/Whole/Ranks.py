@@ -93,6 +93,7 @@ def test_one_process_has_something_to_compare():
     for name in ("letters not known", "letters"):
         assert (EXPECTED[name] != EXPECTED["no letters"]).any(), name
     assert EXPECTED["uploads"].tolist() == [1, 2], "a stroke sends no voxels"
+    assert EXPECTED["bytes in memory unbent"] == 61 ** 3 * 4, EXPECTED["bytes in memory unbent"]
 
 
 def test_two_ranks_of_pvbatch():
@@ -115,6 +116,16 @@ def test_four_ranks_of_pvbatch():
         share = found[f"bytes {name}"][0] / EXPECTED[f"bytes {name}"][0]
         print(name, "share of the first rank", share, flush=True)
         assert 0.2 < share < most, (name, share)
+    for name in ("unbent", "bent", "far"):
+        assert_no_more_in_memory(found, name)
+
+
+def assert_no_more_in_memory(found, name):
+    """Memory has what the card has: the rank's part of ParaView's pipeline is within it."""
+    memory, card = (found[f"bytes {where}{name}"][0] / EXPECTED[f"bytes {where}{name}"][0]
+                    for where in ("in memory ", ""))
+    print(name, "in memory", memory, "on the card", card, flush=True)
+    assert 0.2 < memory < card + 0.01, (name, memory, card)
 
 
 def test_eight_ranks_of_pvbatch():
@@ -123,6 +134,7 @@ def test_eight_ranks_of_pvbatch():
     assert_same(found, {name: numbers for name, numbers in EXPECTED.items() if name in found})
     assert_same_files(folder_of(8))
     assert found["bytes unbent"][0] < 0.4 * EXPECTED["bytes unbent"][0], found["bytes unbent"]
+    assert_no_more_in_memory(found, "unbent")
 
 
 def test_a_server_of_two_ranks():

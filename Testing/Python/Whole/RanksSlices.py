@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Deformed Slices on 2 and 4 MPI ranks of pvbatch, and on a pvserver of 2, are the
+# Proves that Deformed Slices on 2, 4 and 8 MPI ranks of pvbatch, and on a pvserver of 2, are the
 # pictures of one process, with the tissue that it finds under its pixels, although each rank has
 # only the voxels of its part.
 import numpy
@@ -88,6 +88,13 @@ def test_four_ranks_of_pvbatch():
         share = found[f"bytes {name}"][0] / EXPECTED[f"bytes {name}"][0]
         print(name, "share of the first rank", share, flush=True)
         assert 0.2 < share < most, (name, share)
+
+
+def test_eight_ranks_of_pvbatch():
+    found, _ = batch(8, FOLDER, ranks_slices_testing.__file__)
+    assert_same(found, 8)
+    share = found["bytes unbent"][0] / EXPECTED["bytes unbent"][0]
+    assert 0.1 < share < 0.4, share
 
 
 def test_a_server_of_two_ranks():
