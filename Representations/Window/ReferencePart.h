@@ -29,8 +29,8 @@ class VTKBRAINSHIFTREPRESENTATIONS_EXPORT ReferencePart
 public:
   /**
    * Leaves of the reference and its cavity that a volume carries the voxels that a box needs. They
-   * are in the same arrays as in the last call if they are the same, so that a card keeps them. All
-   * of the reference stays where memory for a part is short.
+   * are not copied, and in the same arrays as in the last call if they are the same, so that a card
+   * keeps them.
    *
    * @param volume  changed: its field data
    * @param box     of the deformed frame (mm, world), with what is read beside it
