@@ -51,7 +51,7 @@ from fits import measure_fits  # noqa: E402
 from floors import measure_floors  # noqa: E402
 from large import measure_large  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
-from ranks import measure_ranks  # noqa: E402
+from ranks import measure_ranks, measure_scan  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OCCLUSION, OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
 from session import measure_session  # noqa: E402
@@ -293,6 +293,7 @@ def parse(arguments):
                         help="voxels of the volume that they draw (512 512 512)")
     parser.add_argument("--ranks-bits", type=int, choices=(8, 16), default=8)
     parser.add_argument("--ranks-packed", action="store_true", help="the head is a .nii.gz file")
+    parser.add_argument("--ranks-scan", metavar="FILE", help="a scan that they draw in its place")
     parser.add_argument("--reference", type=int, nargs=3, metavar="N", default=REFERENCE,
                         help="voxels of the reference case (256 256 150)")
     parser.add_argument("--sizes", type=int, nargs="*", metavar="N",
@@ -367,7 +368,7 @@ def main(arguments=None):
     options = parse(arguments)
     if options.ranks is not None:
         options.ranks = options.ranks or [1, 2, 4, 8]
-        measure_ranks(options)
+        measure_scan(options) if options.ranks_scan else measure_ranks(options)
         return
     if options.large is not None:
         measure_large(tuple(options.large), options)

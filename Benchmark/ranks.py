@@ -5,6 +5,7 @@
                        [--ranks-voxels X Y Z]   # 512 512 512
                        [--ranks-bits 8|16]      # 8
                        [--ranks-packed]         # .nii.gz
+    ./brainshift bench --ranks [N ...] --ranks-scan FILE   # a scan, by its looks, and no more
 
 The head of large.py lies in a NIfTI file. Of a raw one, a rank reads the voxels of its part alone.
 Each rank gets one thread for drawing. MPI spins while it waits, so that the processor time of a
@@ -29,6 +30,7 @@ import time
 
 DIRECTIONS = 12
 WITHIN, BEYOND = 8.0, 30.0  # mm of strokes: of RankHalo, 10 mm, and farther
+DEEP = 30.0                 # mm below the top of a scan, where it is bent
 FAR_APART = 1000.0          # mm between two samples: next to none
 MPI = [os.environ.get("BRAINSHIFT_MPIEXEC", "mpirun"), "--oversubscribe", "--allow-run-as-root",
        "-np"]
@@ -115,31 +117,70 @@ def measured(head, maps):
     return found
 
 
-def on_one_rank(file, top, size):
-    """Runs in pvbatch --sym. `top`: the largest value of the voxels; `size`: their numbers."""
+def found_in_head(file, top, *size):
+    """`top`: the largest value of the voxels; `size`: their numbers."""
     import large
     import numpy
     from paraview import simple
-    from paraview.modules.vtkRemotingCore import vtkProcessModule
     spacing = numpy.array([large.LONGEST_MM / max(size)] * 3)
     head = large.Head(simple.OpenDataFile(file), size, spacing, (top + 1) / 256)
     head.display.MemoryLimit = 0  # all that the driver gives
     air = top * large.AIR / 255
     maps = {"opaque": list(head.opacities.Points),
             "translucent": [0, 0, 0.5, 0, air, 0, 0.5, 0, top, 0.1, 0.5, 0]}
-    found = measured(head, maps)
+    return measured(head, maps)
+
+
+class Scan:
+    """A scan in the middle of a view, bent by 10 mm at a place."""
+
+    def __init__(self, file, place):
+        import brainshift
+        import large
+        from paraview import simple
+        self.bent = simple.FreeFormDeformation(
+            Input=simple.OpenDataFile(file), Strokes=brainshift.soft(place, (0, 0, -10.0), 50.0))
+        self.view = simple.CreateView("RenderView")
+        self.view.ViewSize = [large.WINDOW] * 2
+        self.view.OrientationAxesVisibility = self.view.UseFXAA = 0
+        self.display = simple.Show(self.bent, self.view, "UniformGridRepresentation")
+        self.display.SetRepresentationType("Deformed Volume")
+        self.display.AmbientOcclusion = 0
+        simple.ColorBy(self.display, ("POINTS", self.bent.PointData.GetArray(0).GetName()))
+
+    def draw(self):
+        self.view.UseFXAA = 0
+        self.view.SMProxy.StillRender()
+        self.view.GetClientSideObject().GetRenderWindow().WaitForCompletion()
+
+
+def found_in_scan(file, *place):
+    """Seconds of a mean frame of each look of a scan, by name, and what this rank holds. `place`:
+    mm, of the stroke: a rank knows the bounds of its own part."""
+    import brainshift
+    scan = Scan(file, place)
+    found = {"looks": {}}
+    for name in brainshift.looks(scan.display):
+        brainshift.look(scan.display, name, scan.view)
+        found["begin"] = held(scan)
+        found["looks"][name] = seconds_of_frames(scan)
+    return found
+
+
+def write_found(found, out):
+    from paraview.modules.vtkRemotingCore import vtkProcessModule
     rank = vtkProcessModule.GetProcessModule().GetPartitionId()
-    with open(f"{file}.{rank}.json", "w", encoding="utf-8") as out:
-        json.dump(found, out)
+    with open(f"{out}.{rank}.json", "w", encoding="utf-8") as file:
+        json.dump(found, file)
 
 
-def runs(file, ranks, top, size):
-    """What each of the ranks found."""
+def runs(out, ranks, finds, *arguments):
+    """What each of the ranks found, and wrote into files whose names begin with `out`."""
     done = subprocess.run(
-        [*MPI, str(ranks), "pvbatch", "--sym", os.path.abspath(__file__), file, str(top),
-         *map(str, size)],
+        [*MPI, str(ranks), "pvbatch", "--sym", os.path.abspath(__file__), out,
+         finds.__name__, json.dumps(arguments)],  # as options begin with a minus, too
         env={**os.environ, "LP_NUM_THREADS": "1"}, capture_output=True, text=True, check=False)
-    names = [f"{file}.{rank}.json" for rank in range(ranks)]
+    names = [f"{out}.{rank}.json" for rank in range(ranks)]
     if done.returncode or not all(map(os.path.exists, names)):
         raise RuntimeError(f"{ranks} ranks failed:\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
     found = []
@@ -181,6 +222,35 @@ def tell(report, voxels, number, whole, found):
         resident=resident, exchange=exchange, reading=reading)
 
 
+def measure_scan(options):
+    """Runs each count of ranks with a scan, writes the results."""
+    from paraview import simple
+    from report import Report, header
+    view = simple.CreateView("RenderView")
+    simple.Render(view)
+    report = Report(header(view.GetRenderWindow()))
+    report.case(os.path.basename(options.ranks_scan))
+    scan = simple.OpenDataFile(options.ranks_scan)
+    scan.UpdatePipeline()
+    ends = scan.GetDataInformation().GetBounds()
+    place = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[2] + ends[3]), ends[5] - DEEP
+    os.makedirs(options.output, exist_ok=True)
+    whole = None
+    for ranks in sorted({1, *options.ranks}):
+        found = runs(os.path.join(os.path.abspath(options.output), "scan"), ranks,
+                     found_in_scan, os.path.abspath(options.ranks_scan), *place)
+        memory = max(one["begin"]["memory"] for one in found)
+        whole = whole or memory
+        draws = {name: 1000 * max(one["looks"][name][0] for one in found)
+                 for name in found[0]["looks"]}
+        report.fact(
+            f"ranks: {ranks}. The slowest draws " +
+            ", ".join(f"{name} in {ms:.0f} ms" for name, ms in draws.items()) +
+            f"; the largest has {100 * memory / whole:.0f} % of the voxels in memory",
+            ranks=ranks, draws=draws, memory=memory)
+    report.write(options.output)
+
+
 def measure_ranks(options):
     """Makes the head, runs each count of ranks, writes the results."""
     import large
@@ -204,7 +274,7 @@ def measure_ranks(options):
     top = 255 if number == 1 else 4095
     whole = None
     for ranks in sorted({1, *options.ranks}):
-        found = runs(file, ranks, top, size)
+        found = runs(file, ranks, found_in_head, file, top, *size)
         one = found[0]["begin"]
         whole = whole or one["scalars"] * one["coarser"]
         tell(report, int(numpy.prod(size)), number, whole, found)
@@ -216,4 +286,5 @@ if __name__ == "__main__":
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
     from scene import load_plugin
     load_plugin()
-    on_one_rank(sys.argv[1], float(sys.argv[2]), tuple(map(int, sys.argv[3:])))
+    OUT, FINDS, ARGUMENTS = sys.argv[1:]
+    write_found(globals()[FINDS](*json.loads(ARGUMENTS)), OUT)

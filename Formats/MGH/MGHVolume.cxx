@@ -4,6 +4,7 @@
 #include "Common/Bytes.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Volumes/RasGrid.h"
 
 #include "vtkImageData.h"
 
@@ -171,6 +172,12 @@ void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   {
     header.warnings.push_back("has no positions of its voxels (goodRASFlag is 0); they are shown "
                               "as coronal slices of 1 mm, and their sides are not known");
+  }
+  else
+  {
+    warnOfScaledAxes({ glm::length(stored.direction(0)), glm::length(stored.direction(1)),
+                       glm::length(stored.direction(2)) },
+      header.warnings);
   }
   header.times = evenTimes(static_cast<std::size_t>(this->Frames),
     this->Frames > 1 ? secondsOf(this->From, bytes, header.warnings) : 1.0);

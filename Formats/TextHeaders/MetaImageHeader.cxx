@@ -3,6 +3,7 @@
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/TextHeader.h"
+#include "Formats/Volumes/RasGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -243,11 +244,15 @@ void readPlace(std::size_t dimensions, TextHeader& header)
   }
   const std::size_t first = header.axes.size() - dimensions;
   const double mm = mmOf(header);
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  glm::dvec3 lengths(1.0);
+  for (int axis = 0; axis < 3; ++axis)
   {
     const double* const unit = &turn[axis * dimensions];
-    header.axes[first + axis].step = glm::dvec3(unit[0], unit[1], unit[2]) * (mm * spacing[axis]);
+    const glm::dvec3 direction(unit[0], unit[1], unit[2]);
+    lengths[axis] = glm::length(direction);
+    header.axes[first + axis].step = direction * (mm * spacing[axis]);
   }
+  warnOfScaledAxes(lengths, header.warnings);
   if (dimensions == 4)
   {
     header.axes.back().kind = "time";

@@ -132,6 +132,16 @@ void requireAffine(const glm::dmat4& worldFromVoxel)
   }
 }
 
+void warnOfScaledAxes(const glm::dvec3& lengths, std::vector<std::string>& warnings)
+{
+  constexpr double Rounding = 1e-3;
+  if (!glm::all(glm::lessThanEqual(glm::abs(lengths - 1.0), glm::dvec3(Rounding))))
+  {
+    warnings.push_back(joined("has directions of its axes with the lengths ", lengths.x, ", ",
+      lengths.y, " and ", lengths.z, ", which should be 1; they scale its spacing"));
+  }
+}
+
 RasGrid nearestRasGrid(const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions)
 {
   const glm::dmat3 axes = unitColumns(worldFromVoxel);

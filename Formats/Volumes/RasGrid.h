@@ -10,6 +10,9 @@
 #include "Common/Grid.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 
+#include <string>
+#include <vector>
+
 namespace brainshift
 {
 /**
@@ -21,6 +24,16 @@ constexpr double LargestUnreportedShear = 1e-4;
 
 /** Throws a part of a sentence if an affine cannot place voxels: not finite, singular. */
 VTKBRAINSHIFTFORMATS_EXPORT void requireAffine(const glm::dmat4& worldFromVoxel);
+
+/**
+ * Warns of a file whose directions of axes, each of which should have the length 1, scale its
+ * spacing by more than a thousandth.
+ *
+ * @param lengths    of the directions of the three axes
+ * @param warnings   parts of sentences; gets one more
+ */
+VTKBRAINSHIFTFORMATS_EXPORT void warnOfScaledAxes(
+  const glm::dvec3& lengths, std::vector<std::string>& warnings);
 
 /** Voxels that are permuted and flipped so that each grid axis runs along the nearest RAS axis. */
 struct RasGrid

@@ -127,6 +127,19 @@ TEST(MGHVolume, WithoutGoodRASTheSidesAreNotKnown)
   EXPECT_EQ(good.image()->GetOrigin()[0], 9.0); // half of 2 voxels before the centre
 }
 
+TEST(MGHVolume, DirectionsThatScaleTheSpacing)
+{
+  MGHTestFile file;
+  file.place[7] = 0.9F; // of the second axis, which has 2 mm
+  writeFile("scaled.mgh", file.bytes());
+  FormatReading<MGH> reading("scaled.mgh");
+  EXPECT_NE(
+    reading.said().find("directions of its axes with the lengths 1, 0.9 and 1, which should be 1"),
+    std::string::npos)
+    << reading.said();
+  EXPECT_NEAR(reading.image()->GetSpacing()[1], 1.8, 1e-6);
+}
+
 TEST(MGHVolume, HeadersThatCannotBe)
 {
   expectRefused<MGH>("no.mgh", std::string(100, 'x'), "has no whole header, which has 284 bytes");

@@ -170,6 +170,14 @@ TEST(TextHeaderSaid, SlopesThatAreNone)
   }
 }
 
+TEST(TextHeaderSaid, DirectionsThatScaleTheSpacing)
+{
+  expectSaid<Meta>("scaled.mha", metaImage({ { "TransformMatrix", "-1 0 0 0 -0.8 0 0 0 1" } }),
+    "has directions of its axes with the lengths 1, 0.8 and 1, which should be 1");
+  const std::string rounded = "-0.7071 0.7071 0 -0.7071 -0.7071 0 0 0 1";
+  EXPECT_EQ(saidOf<Meta>("turned.mha", metaImage({ { "TransformMatrix", rounded } })), "");
+}
+
 TEST(TextHeaderSaid, DistancesThatAreNotThere)
 {
   expectSaid<Meta>("bare.mha", metaImage({ { "ElementSpacing", "" } }),
