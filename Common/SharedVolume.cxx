@@ -276,10 +276,14 @@ public:
   Transfer(const Exchanged& array, vtkDataArray* own, const std::vector<Extent>& held,
     const std::vector<Extent>& wanted, int rank)
     : Array(array)
-    , Own{ held[rank], held[rank], own }
+    , Own{ held[rank], held[rank], nullptr }
     , Wanted(wanted[rank])
     , Message(array)
   {
+    if (own)
+    {
+      this->Own.values = contiguous(own);
+    }
     for (const Extent& box : beyond(wanted[rank], held[rank]))
     {
       this->Lacking.push_back({ box, box, zeros(array, sizeOf(box)) });

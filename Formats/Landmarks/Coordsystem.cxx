@@ -143,6 +143,25 @@ double unitIn(const nlohmann::json& object, bool isOptodes)
                              : "says the unit " + shownWords(unit) + "; it must be mm, cm or m");
 }
 
+// Whether a word names a frame whose axes are known.
+bool isKnownFrame(const std::string& words)
+{
+  bool isKnown = true; // also one that is refused, such as CTF
+  problemOf([&] { isKnown = frameIn(words).axes.has_value(); });
+  return isKnown;
+}
+
+// BIDS names a system by the same word in both places.
+void noteOtherSpace(const std::string& space, const std::string& system, LandmarkList& list)
+{
+  if (keyOf(space) != keyOf(system) && isKnownFrame(space) && isKnownFrame(system))
+  {
+    noteOnce(list,
+      "is in the space " + shownWords(space) + " by its name, and in " + shownWords(system) +
+        " by its coordsystem.json, which counts. Correct the one that is wrong");
+  }
+}
+
 // The axes, with a note about a system that is not the scanner's.
 std::optional<FileAxes> axesIn(const nlohmann::json& object, bool isOptodes, LandmarkList& list)
 {
@@ -197,6 +216,7 @@ std::optional<ElectrodeFrame> electrodeFrame(const std::string& tableName, Landm
     const nlohmann::json object =
       nlohmann::json::parse(readPlainText(beside, LongestSidecar), requireOnce, /*throws*/ false);
     throwIfAny(object.is_object() ? "" : "is not good JSON");
+    noteOtherSpace(spaceOf(tableName), wordIn(object, "CoordinateSystem", isOptodes), list);
     electrodes.axes = axesIn(object, isOptodes, list);
     electrodes.mm = unitIn(object, isOptodes);
     electrodes.isSaid = true;

@@ -45,6 +45,18 @@ def test_a_coordsystem_that_contradicts_its_table_is_said():
     assert "units of 1000 mm by its own words, and of 1 mm" in said.text, said.text
 
 
+def test_a_coordsystem_of_another_space_than_the_name_of_its_table_is_said():
+    for space, system, words in (
+            ("MNI152Lin", "ScanRAS", "the space MNI152Lin by its name, and in ScanRAS by"),
+            ("ScanRAS", "fsaverage", "the space ScanRAS by its name, and in fsaverage by"),
+            ("CTF", "ScanRAS", "the space CTF by its name, and in ScanRAS by"),
+            ("MNI152Lin", "MNI152Lin", ""), ("Mine", "ScanRAS", ""), ("Mine", "Other", "")):
+        written(f"sub-66_space-{space}_coordsystem.json", json.dumps({
+            "iEEGCoordinateSystem": system, "iEEGCoordinateUnits": "mm"}))
+        said = read(f"sub-66_space-{space}_electrodes.tsv", "name\tx\ty\tz\nA\t1\t2\t3\n")[1]
+        assert words in said and ("by its name" in said) == bool(words), (space, system, said)
+
+
 def read(name, text, **named):
     """The first position of a table, and what is said."""
     with messages() as said:
