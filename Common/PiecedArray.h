@@ -103,12 +103,12 @@ private:
 /** An array whose values follow each other in memory: the array itself, or a copy. */
 VTKBRAINSHIFTCOMMON_EXPORT vtkSmartPointer<vtkDataArray> contiguous(vtkDataArray* array);
 
-/// The pieces of an array of numbers of the type T; null: it has none.
+/// The pieces of an array of numbers of the type T; null: it has none. They are recognised by the
+/// name of their class, for each library has a class of its own.
 template <typename T>
 vtkImplicitArray<Pieces<T>>* asPieced(vtkDataArray* array)
 {
-  return vtkImplicitArray<Pieces<T>>::SafeDownCast(
-    array); // by name: each library has its own class
+  return vtkImplicitArray<Pieces<T>>::SafeDownCast(array);
 }
 
 /// The array itself, or a copy in runs if it has none.
