@@ -23,6 +23,14 @@ PixelBox widened(const PixelBox& box, int pixels)
   return { box.low - pixels, box.high + pixels };
 }
 
+// mm in the world for one before an actor's scale.
+double scaleOf(const SceneFrame& frame)
+{
+  const glm::dvec3& side = frame.mmFromTexture;
+  const double scaled = std::abs(glm::determinant(glm::dmat3(frame.worldFromTexture)));
+  return std::cbrt(scaled / (side.x * side.y * side.z));
+}
+
 // mm in the world. Tissue is known to half a voxel. With longer steps a first hit is not, so two
 // neighbours may seem to lean by half a step each. Shorter steps change nothing: a picture would
 // get darker with each.
@@ -33,8 +41,7 @@ double toleranceOf(const RayCastScene& scene)
   const glm::dvec3 voxel =
     (bricks.pages ? 1.0 / bricks.voxelFromTexture : scene.tissue.voxel) * side;
   const double known = 0.5 * glm::min(glm::min(voxel.x, voxel.y), voxel.z);
-  const double scaled = std::abs(glm::determinant(glm::dmat3(scene.frame.worldFromTexture)));
-  return glm::max(known, 0.5 * scene.stepMm()) * std::cbrt(scaled / (side.x * side.y * side.z));
+  return glm::max(known, 0.5 * scene.stepMm()) * scaleOf(scene.frame);
 }
 
 double depthOf(const Frustum& frustum)
@@ -81,6 +88,16 @@ bool Occlusion::isFor(const RayCastScene& scene)
   const Blend blend = scene.tissue.blend;
   return scene.tissue.shaded && !scene.comparison.reference &&
     (blend == Blend::Composite || blend == Blend::Isosurface);
+}
+
+double Occlusion::seenWithin(const RayCastScene& scene, double radius)
+{
+  if (scene.tissue.blend != Blend::Composite)
+  {
+    return 1.0; // an isosurface has no depth
+  }
+  const double steps = radius / (scaleOf(scene.frame) * scene.tissue.stepMm);
+  return 1.0 - std::pow(1.0 - glm::clamp(scene.tissue.largestOpacity, 0.0, 1.0), steps);
 }
 
 int Occlusion::reach(const glm::dmat4& clipFromWorld, const glm::ivec2& size, double radius)

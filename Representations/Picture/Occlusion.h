@@ -36,6 +36,11 @@ public:
   /// Whether the scene's tissue has surfaces that light can miss.
   static bool isFor(const RayCastScene& scene);
 
+  /// The most of the light behind a point that tissue of this thickness hides, 0 to 1. Occlusion
+  /// belongs to the tissue at a first hit. If that is translucent, the eye sees little of it: a ray
+  /// gains the rest of its light elsewhere. `radius`: mm, world.
+  static double seenWithin(const RayCastScene& scene, double radius);
+
   /// Pixels around a picture that its occlusion depends on. `clipFromWorld`: the camera's matrix;
   /// `size`: of the picture, pixels; `radius`: mm.
   static int reach(const glm::dmat4& clipFromWorld, const glm::ivec2& size, double radius);

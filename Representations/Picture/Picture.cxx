@@ -351,7 +351,9 @@ bool Picture::occlude(GpuTask& gpu, const PictureWish& wish, const RayCastScene&
   {
     return false;
   }
-  this->Shade = { this->Occlusion.texture(), wish.occlusion.darkness, wish.margin };
+  const double darkness =
+    wish.occlusion.darkness * Occlusion::seenWithin(scene, wish.occlusion.radius);
+  this->Shade = { this->Occlusion.texture(), darkness, wish.margin };
   return true;
 }
 

@@ -93,6 +93,8 @@ struct SceneSteepness
   double stepMm = 1.0;                       ///< Step that the opacities hold for.
 };
 
+constexpr float OpaqueStep = 0.9f; ///< A step of this opacity hides nearly all that is behind.
+
 /// Textures of the volume at rest. Filled by TissueTextures::update.
 struct SceneTissue
 {
@@ -108,14 +110,17 @@ struct SceneTissue
   double stepMm = 1.0;     ///< Step along the ray that the user asked for.
   Blend blend = Blend::Composite;
   bool shaded = false;
-  bool opaque = false;                       ///< At some value, one step hides all behind it.
+  double largestOpacity = 0.0;               ///< Of one step at any value.
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; ///< Ambient, diffuse, specular, specular power.
   SceneColoring coloring;
   SceneSegment segment;
   SceneSteepness steepness;
 
   /// Whether rays end inside the tissue, soon after its surface.
-  bool raysEndSoon() const { return this->opaque && this->blend == Blend::Composite; }
+  bool raysEndSoon() const
+  {
+    return this->largestOpacity >= OpaqueStep && this->blend == Blend::Composite;
+  }
 };
 
 /// Bricks of a finer level of the volume. Filled by StreamedBricks::upload.

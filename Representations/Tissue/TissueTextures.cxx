@@ -164,7 +164,7 @@ void TissueTextures::describe(const TissueRequest& request, SceneTissue& tissue)
   tissue.transfer = this->Transfer.texture();
   // Voxels that are drawn as they are leave nothing between two of them to take an average of.
   tissue.transferSums = request.nearest ? nullptr : this->Transfer.sums();
-  tissue.opaque = this->Transfer.isOpaque();
+  tissue.largestOpacity = this->Transfer.largestOpacity();
   tissue.transferFromScalar = transferFromStored(this->Transfer, this->Stored);
   tissue.visibleScalars =
     this->Transfer.visibleValues(this->Stored.scale, this->Stored.shift).ends();

@@ -81,8 +81,8 @@ public:
   /// Whether all scalars below a visible one are visible, too.
   bool visibleDownwards() const;
 
-  /// Whether one step somewhere hides nearly all that is behind, so that rays end soon.
-  bool isOpaque() const { return this->LargestOpacity >= OpaqueStep; }
+  /// Of one step at any value.
+  float largestOpacity() const { return this->LargestOpacity; }
 
   vtkTextureObject* texture() const { return this->Texture; }
 
@@ -93,8 +93,6 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  static constexpr float OpaqueStep = 0.9f;
-
   void upload(GpuTask& gpu, std::vector<float>& texels);
   void makeSums(
     vtkOpenGLRenderWindow* window, const std::vector<float>& texels, Counters& counters);
