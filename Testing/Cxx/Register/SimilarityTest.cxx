@@ -246,7 +246,8 @@ TEST_P(EachMetric, ACavityDoesNotCount)
   LevelVolumes volumes = level();
   const Grid& grid = volumes.rest.grid;
   const Mask removed = ball(grid, middle(grid), 9.0);
-  volumes.referenceWeights = weightsOf(grid, { nullptr, nullptr, &removed }, GetParam()->support);
+  volumes.referenceWeights =
+    weightsOf(grid, { nullptr, nullptr, { &removed } }, GetParam()->support);
   LevelVolumes changed = volumes;
   for (std::size_t i = 0; i < removed.inside.size(); ++i)
   {
