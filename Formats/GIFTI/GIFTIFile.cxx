@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 
 namespace brainshift
@@ -20,6 +21,15 @@ constexpr std::size_t DeepestElement = 16; // the format needs 6
 constexpr std::size_t MostLabels = 1 << 20;
 constexpr std::size_t LongestMatrix = 4096;    // letters
 constexpr std::size_t LongestBeginning = 4096; // bytes by which a file is known
+
+// Expat 2.9 names them anew.
+#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
+constexpr auto currentLine = XML_GetCurrentLineNumber64;
+constexpr auto currentByte = XML_GetCurrentByteIndex64;
+#else
+constexpr auto currentLine = XML_GetCurrentLineNumber;
+constexpr auto currentByte = XML_GetCurrentByteIndex;
+#endif
 
 // What expat tells of the file as it goes along.
 class Listener
@@ -277,11 +287,11 @@ void requireRoot(GIFTIFile& file)
 }
 
 // The name at which expat stopped.
-std::string wordAt(const std::vector<char>& text, XML_Index index)
+std::string wordAt(const std::vector<char>& text, std::int64_t index)
 {
   const std::string_view all(text.data(), text.size());
   const std::size_t begin =
-    std::min(all.size(), static_cast<std::size_t>(std::max<XML_Index>(index, 0)));
+    std::min(all.size(), static_cast<std::size_t>(std::max<std::int64_t>(index, 0)));
   const std::string_view rest = all.substr(begin, LongestBeginning);
   return shownWords(std::string(rest.substr(0, rest.find_first_of("= \t\r\n"))));
 }
@@ -327,11 +337,11 @@ GIFTIFile readGIFTIFile(const std::vector<char>& text)
     throwIfAny(listener.problem());
     if (status != XML_STATUS_OK)
     {
-      const std::string line = std::to_string(XML_GetCurrentLineNumber(parser.get()));
+      const std::string line = std::to_string(currentLine(parser.get()));
       const XML_Error error = XML_GetErrorCode(parser.get());
       throwIfAny(error != XML_ERROR_DUPLICATE_ATTRIBUTE
           ? ""
-          : twice("attribute " + wordAt(text, XML_GetCurrentByteIndex(parser.get()))) +
+          : twice("attribute " + wordAt(text, currentByte(parser.get()))) +
             " in an element in line " + line);
       throw Problem("is not good XML in line " + line + ": " + XML_ErrorString(error));
     }
