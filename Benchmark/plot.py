@@ -14,7 +14,7 @@ from vtkmodules.vtkViewsContext2D import vtkContextView
 
 # Colours that people who cannot tell red from green can tell apart.
 COLORS = ((0, 90, 180), (230, 130, 0), (0, 150, 110), (190, 60, 140), (110, 110, 110))
-TITLES = {"frame": "same step", "coarse": "default steps", "equal error": "equal error"}
+TITLES = {"frame": "same step", "own": "default steps", "equal error": "equal error"}
 CHART_WIDTH, CHART_HEIGHT = 560, 430  # pixels
 
 

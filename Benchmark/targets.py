@@ -27,7 +27,8 @@ class Target:
 
 STOCK = "stock Volume as loaded, same step"
 EQUAL = "stock Volume as loaded, at the step where its error is ours"
-COARSE = "stock Volume as loaded, its default step of a voxel"
+COARSE = "stock Volume as loaded, a step of a voxel"
+OWN = "ParaView's Volume as loaded, as it draws a still picture"
 RESLICE = "vtkImageReslice, vtkBSplineTransform, upload, stock Volume"
 
 #: By the key that measurements are reported with, in the order of the table.
@@ -59,6 +60,8 @@ TARGETS = {
 
 #: Of floors.py alone, on several volumes; the rows of the table above that it measures count, too.
 OF_VOLUMES = {
+    "own opaque": Target("steady frame, opaque", OWN, "x", 2, 5),
+    "own translucent": Target("steady frame, translucent", OWN, "x", 1.3, 3),
     "error opaque": Target("error beside stock's, same step, opaque", "stock's error", "x", 1, 0.5,
                            small_is_good=True),
     "error translucent": Target("error beside stock's, same step, translucent", "stock's error",
