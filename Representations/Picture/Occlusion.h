@@ -36,9 +36,9 @@ public:
   /// Whether the scene's tissue has surfaces that light can miss.
   static bool isFor(const RayCastScene& scene);
 
-  /// The most of the light behind a point that tissue of this thickness hides, 0 to 1. Occlusion
-  /// belongs to the tissue at a first hit. If that is translucent, the eye sees little of it: a ray
-  /// gains the rest of its light elsewhere. `radius`: mm, world.
+  /// The largest fraction of its light that a ray can gain within a length of the scene's tissue, 0
+  /// to 1. Occlusion belongs to the tissue at a first hit: if that is translucent, a ray gains most
+  /// of its light elsewhere. `radius`: the length, mm, world.
   static double seenWithin(const RayCastScene& scene, double radius);
 
   /// Pixels around a picture that its occlusion depends on. `clipFromWorld`: the camera's matrix;
