@@ -22,7 +22,7 @@ STEPS = (1.0, 0.5, 0.25)  # voxels
 FINEST = 1.0 / 16.0
 ERROR_WINDOW = 256  # pixels: pictures at 1/16 voxel take long
 OURS, STOCK, OWN = "ours", "stock", "own"
-OWN_STEP = 0.5  # mean voxel sides: what ParaView's Volume takes of a picture that stays
+OWN_STEP = 0.5  # voxels, by its times: for the name of the row, since it is not set
 
 
 def rms(left, right, where):

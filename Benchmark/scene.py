@@ -20,7 +20,7 @@ from vtkmodules.vtkRenderingVolumeOpenGL2 import vtkOpenGLGPUVolumeRayCastMapper
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Testing", "Data")
 ARRAY = "Intensity"
 STEP = 0.5  # voxels along the ray: our default
-COARSE_STEP = 1.0  # voxels: VTK's while a picture moves
+COARSE_STEP = 1.0  # voxels
 SAMPLES = 4  # nodes of the offset field between two control points
 AIR = 20    # of 255: below is air and noise
 

@@ -200,7 +200,8 @@ public:
   ///@{
   /**
    * Strength of ambient occlusion, 0 to 1: the fraction of light that the most occluded tissue
-   * loses. It darkens grooves such as sulci. Still pictures of shaded volumes only, in the blend
+   * loses. It darkens grooves such as sulci. Translucent tissue loses less: the fraction that
+   * tissue as thick as the radius can hide. Still pictures of shaded volumes only, in the blend
    * modes Composite and Isosurface, and not with a reference in view. 0 is off. Default 0.5.
    */
   vtkSetClampMacro(AmbientOcclusion, double, 0.0, 1.0);
