@@ -3,8 +3,8 @@
 
 #include "Common/Guard.h"
 #include "Common/Portions.h"
-#include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/InputAxes.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -170,7 +170,7 @@ int vtkDeformGeometry::RequestData(
   const DirectedMap map = directedMapOf(
     vtkDataObject::GetData(inputs[1]), static_cast<brainshift::Direction>(this->Direction));
   warnAnew(this,
-    wordsOnSidesOf(namedAxesOf("the geometry", input), vtkDataObject::GetData(inputs[1])),
+    wordsOnSidesOf(namedAxesOfInput("the geometry", this, 0), vtkDataObject::GetData(inputs[1])),
     this->Warned);
   output->ShallowCopy(input);
   if (input->GetPoints() && !deform(this, map, input, output))

@@ -8,8 +8,8 @@
 #include "Common/Portions.h"
 #include "Common/RankAgreement.h"
 #include "Common/RankInputs.h"
-#include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/InputAxes.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Traces/DeformedSurface.h"
 #include "Filters/Traces/StrokeMarks.h"
@@ -389,8 +389,8 @@ int vtkTraceDistance::RequestData(
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputs);
   warnAnew(this,
-    wordsOnSidesOf(
-      namedAxesOf("the traced points", input), vtkDataObject::GetData(inputs[DeformationPort])),
+    wordsOnSidesOf(namedAxesOfInput("the traced points", this, 0),
+      vtkDataObject::GetData(inputs[DeformationPort])),
     state.Warned);
   std::vector<double> distances;
   bool going = true;

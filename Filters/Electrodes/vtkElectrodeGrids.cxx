@@ -7,6 +7,7 @@
 #include "Common/RankAgreement.h"
 #include "Common/RankInputs.h"
 #include "Common/WorldAxes.h"
+#include "Filters/Attached/InputAxes.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Electrodes/ContactArrays.h"
 #include "Filters/Electrodes/SheetFit.h"
@@ -566,19 +567,24 @@ void vtkElectrodeGrids::Fit(vtkInformationVector** inputs)
   }
 }
 
-std::string vtkElectrodeGrids::DoubtsAboutSides(vtkInformationVector** inputs) const
+std::string vtkElectrodeGrids::DoubtsAboutSides(vtkInformationVector** inputs)
 {
-  const NamedAxes contacts{ "the contacts", axesOf(inputs[0], this->PointAxes) };
-  vtkDataObject* cortex = vtkDataObject::GetData(inputs[CortexPort]);
-  vtkDataObject* opening = vtkDataObject::GetData(inputs[OpeningPort]);
-  for (const auto& [given, noun] :
-    { std::pair<vtkDataObject*, const char*>{ cortex, "the cortex" }, { opening, "the opening" } })
+  NamedAxes contacts = namedAxesOfInput("the contacts", this, 0);
+  contacts.space = Template::None;
+  if (contacts.axes == WorldAxes::Unknown)
+  {
+    contacts.axes = static_cast<WorldAxes>(this->PointAxes);
+  }
+  for (const auto& [port, noun] :
+    { std::pair<int, const char*>{ CortexPort, "the cortex" }, { OpeningPort, "the opening" } })
   {
     // Surfaces come from many tools, which do not name their axes, and from scripts.
-    const WorldAxes axes = worldAxesOf(given);
+    vtkDataObject* given = vtkDataObject::GetData(inputs[port]);
+    NamedAxes surface = namedAxesOfInput(noun, this, port);
+    surface.space = Template::None;
     const bool isComparable = given && contacts.axes != WorldAxes::Unknown &&
-      (axes != WorldAxes::Unknown || vtkImageData::SafeDownCast(given));
-    const std::string words = isComparable ? wordsOnSides({ noun, axes }, contacts) : std::string();
+      (surface.axes != WorldAxes::Unknown || vtkImageData::SafeDownCast(given));
+    const std::string words = isComparable ? wordsOnSides(surface, contacts) : std::string();
     if (!words.empty())
     {
       return words; // one sentence is enough

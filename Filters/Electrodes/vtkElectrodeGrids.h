@@ -169,7 +169,7 @@ private:
   void FindCortex(vtkInformationVector** inputs);
   void Fit(vtkInformationVector** inputs);
   // A sentence on world axes that are not those of the contacts; empty if there is none.
-  std::string DoubtsAboutSides(vtkInformationVector** inputs) const;
+  std::string DoubtsAboutSides(vtkInformationVector** inputs);
 
   struct State;
   std::unique_ptr<State> Internal;

@@ -8,6 +8,7 @@
 #include "Common/RankInputs.h"
 #include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/InputAxes.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Fields/BaseLattice.h"
 #include "Filters/Fit/PackedTables.h"
@@ -308,20 +309,21 @@ void vtkFitDeformation::RequireProperties() const
   }
 }
 
-std::string vtkFitDeformation::DoubtsAboutSides(vtkInformationVector** inputs) const
+std::string vtkFitDeformation::DoubtsAboutSides(vtkInformationVector** inputs)
 {
   vtkDataObject* volume = vtkDataObject::GetData(inputs[0]);
   for (const auto& [port, noun] :
     { std::pair<int, const char*>{ BasePort, "the base" }, { RestPort, "the landmarks at rest" },
       { MeasuredPort, "the measured landmarks" }, { TracesPort, "the traced points" } })
   {
-    vtkDataObject* given = vtkDataObject::GetData(inputs[port]);
-    WorldAxes axes = worldAxesOf(given);
-    if (given && axes == WorldAxes::Unknown && isOfPoints(port))
+    NamedAxes given = namedAxesOfInput(noun, this, port);
+    given.space = Template::None;
+    if (vtkDataObject::GetData(inputs[port]) && given.axes == WorldAxes::Unknown &&
+      isOfPoints(port))
     {
-      axes = static_cast<WorldAxes>(this->PointAxes);
+      given.axes = static_cast<WorldAxes>(this->PointAxes);
     }
-    if (const std::string words = wordsOnSidesOf({ noun, axes }, volume); !words.empty())
+    if (const std::string words = wordsOnSidesOf(given, volume); !words.empty())
     {
       return words; // the other inputs are as doubtful, and one sentence is enough
     }

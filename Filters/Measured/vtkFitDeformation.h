@@ -306,7 +306,7 @@ private:
   // Each throws a Problem if it cannot.
   void RequireProperties() const;
   void ReadMeasurements(vtkInformationVector** inputs);
-  std::string DoubtsAboutSides(vtkInformationVector** inputs) const;
+  std::string DoubtsAboutSides(vtkInformationVector** inputs);
   void FindCortex(vtkInformationVector** inputs);
   void FindAnchors(vtkInformationVector** inputs);
   void FindBase(vtkInformationVector** inputs);

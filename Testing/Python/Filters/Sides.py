@@ -167,6 +167,43 @@ def test_a_model_of_slicer_in_other_axes():
             assert ("by its field array SPACE) are LPS" in text) == (space == "LPS"), text
 
 
+TEXTS = {  # a triangle, and where each format has its comment
+    "vtk": "# vtk DataFile Version 4.2\n3D Slicer output. SPACE={}\nASCII\nDATASET POLYDATA\n"
+           "POINTS 3 float\n9 9 9 20 9 9 9 20 9\nPOLYGONS 1 4\n3 0 1 2\n",
+    "ply": "ply\nformat ascii 1.0\ncomment 3D Slicer output. SPACE={}\nelement vertex 3\n"
+           "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+           "property list uchar int vertex_indices\nend_header\n"
+           "9 9 9\n20 9 9\n9 20 9\n3 0 1 2\n",
+    "stl": "solid 3D Slicer output. SPACE={}\nfacet normal 0 0 1\nouter loop\nvertex 9 9 9\n"
+           "vertex 20 9 9\nvertex 9 20 9\nendloop\nendfacet\nendsolid\n",
+    "obj": "# 3D Slicer output. SPACE={}\nv 9 9 9\nv 20 9 9\nv 9 20 9\nf 1 2 3\n"}
+
+
+def test_a_model_of_slicer_that_says_it_in_a_comment():
+    """In each format, behind another filter too; silent once it was turned around."""
+    bent = simple.FreeFormDeformation(Input=head(True))
+    bent.UpdatePipeline()
+    for ending, text in TEXTS.items():
+        for space in ("RAS", "LPS", "elsewhere"):
+            name = scratch(f"model-{space} \u00e4.{ending}")
+            with open(name, "w", encoding="ascii") as file:
+                file.write(text.format(space))
+            source = simple.OpenDataFile(name)
+            turned = simple.Transform(Input=source, Transform="Transform")
+            turned.Transform.Rotate = [0, 0, 180]
+            smaller = simple.Elevation(Input=source)
+            for step, warns in (
+                    (simple.DeformGeometry(Input=source, Deformation=bent), True),
+                    (simple.DeformGeometry(Input=smaller, Deformation=bent), True),
+                    (simple.DeformGeometry(Input=turned, Deformation=bent), False),
+                    (simple.TraceDistance(Input=source, Deformation=bent), True),
+                    (simple.FitDeformation(Input=bent.Input, Traces=source, Threshold=0.5), True)):
+                said = said_by(step.UpdatePipeline)
+                expected = space == "LPS" and warns
+                assert (SIDES in said) == expected, (ending, space, step, said)
+                assert ("the word SPACE in its file) are LPS" in said) == expected, said
+
+
 def test_a_field_of_unknown_sides_says_so_and_is_known_again():
     for ending in (".nii", ".nii.gz", ".mha", ".nrrd"):
         for known in (True, False):
