@@ -35,7 +35,8 @@ std::string fileReadBy(vtkAlgorithm* reader)
   return name ? name : "";
 }
 
-// The part of a file in which a format has comments; empty for other formats.
+// The part of a file in which a format has comments; empty for other formats. _axes_of_model in
+// Python/brainshift/openscene.py knows the same places, for models of a scene.
 std::string commentsOf(const std::string& file)
 {
   const std::string ending =

@@ -419,7 +419,7 @@ def _without_space(reader, name):
 
 def _axes_of_model(reader, path, end, storage):
     """"RAS" or "LPS": the word of the file, else that of the scene; scenes before Slicer 4.11 have
-    none and mean RAS."""
+    none and mean RAS. InputAxes.cxx knows the same places, for models without a scene."""
     with open(path, "rb") as file:
         header = file.read(_HEADER_BYTES)
     if end == ".vtk":
