@@ -55,11 +55,15 @@ TriangleMesh meshOf(vtkPolyData* surface)
   return mesh;
 }
 
-// The axes of contacts, or others if they say nothing.
-WorldAxes axesOf(vtkInformationVector* contacts, int otherwise)
+// The axes of the contacts, or others if neither they nor their file say them.
+NamedAxes axesOfContacts(vtkElectrodeGrids* filter, int otherwise)
 {
-  const WorldAxes named = worldAxesOf(vtkDataObject::GetData(contacts));
-  return named == WorldAxes::Unknown ? static_cast<WorldAxes>(otherwise) : named;
+  NamedAxes contacts = namedAxesOfInput("the contacts", filter, 0);
+  if (contacts.axes == WorldAxes::Unknown)
+  {
+    contacts.axes = static_cast<WorldAxes>(otherwise);
+  }
+  return contacts;
 }
 
 // A point of the output.
@@ -569,12 +573,8 @@ void vtkElectrodeGrids::Fit(vtkInformationVector** inputs)
 
 std::string vtkElectrodeGrids::DoubtsAboutSides(vtkInformationVector** inputs)
 {
-  NamedAxes contacts = namedAxesOfInput("the contacts", this, 0);
+  NamedAxes contacts = axesOfContacts(this, this->PointAxes);
   contacts.space = Template::None;
-  if (contacts.axes == WorldAxes::Unknown)
-  {
-    contacts.axes = static_cast<WorldAxes>(this->PointAxes);
-  }
   for (const auto& [port, noun] :
     { std::pair<int, const char*>{ CortexPort, "the cortex" }, { OpeningPort, "the opening" } })
   {
@@ -623,7 +623,7 @@ int vtkElectrodeGrids::RequestData(
   }
   for (vtkPolyData* each : { output, onCortex })
   {
-    nameWorldAxes(each, axesOf(inputs[0], this->PointAxes));
+    nameWorldAxes(each, axesOfContacts(this, this->PointAxes).axes);
   }
   state.warn(this->DoubtsAboutSides(inputs));
   warnAnew(this, state.Warning, state.WarnedOf);

@@ -7,8 +7,8 @@ import csv
 import json
 
 import numpy
-from brainshift_testing import (assert_says, ball, load_plugin, output, run_tests, scratch,
-                                volume)
+from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests,
+                                scratch, volume)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -214,6 +214,25 @@ def test_contacts_and_a_cortex_of_other_axes_are_doubted():
     bare = brainshift.electrodes(measured, lps, threshold=50)  # in the frame of the cortex
     assert "world axes" not in bare.warning, bare.warning
     assert_refused(lambda: bare.save(scratch("lps.csv")), "LPS")
+
+
+def test_a_file_of_3d_slicer_names_the_axes_of_contacts():
+    """Its comment does, beside a volume of other axes and in what comes out."""
+    _, measured, labels = grid()
+    for axes in ("RAS", "LPS"):
+        name = scratch(f"contacts-{axes}.vtk")
+        with open(name, "w", encoding="ascii") as file:
+            file.write(f"# vtk DataFile Version 4.2\n3D Slicer output. SPACE={axes}\nASCII\n"
+                       f"DATASET POLYDATA\nPOINTS {len(labels)} double\n")
+            numpy.savetxt(file, measured)
+        with messages() as said:
+            found = simple.ElectrodeGrids(Input=simple.OpenDataFile(name),
+                                          Cortex=named(brain(), "RAS"), Threshold=50)
+            found.UpdatePipeline()
+        warns = "the contacts (by the word SPACE in its file) are LPS" in said.text
+        assert warns == (axes == "LPS"), said.text
+        word = output(found).GetFieldData().GetAbstractArray("WorldAxes")
+        assert word.GetValue(0) == axes, word
 
 
 def test_errors_name_their_cause():
